@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "isophote/apps/commands.h"
+#include "isophote/image/exr.h"
+#include "isophote/image/false_colour.h"
+#include "isophote/image/metrics.h"
+#include "isophote/image/png.h"
+
+namespace isophote::app {
+namespace {
+
+RgbImage read_layer(const std::string& path, const std::string& layer, int block) {
+  const RgbImage image = read_exr(path).rgb(layer);
+  return block > 1 ? block_average(image, block) : image;
+}
+
+}  // namespace
+
+int compare(const CompareRequest& request) {
+  const RgbImage image = read_layer(request.image, request.layer, request.block);
+  const RgbImage reference = read_layer(request.reference, request.layer, request.block);
+  const Difference d = isophote::compare(image, reference);
+  if (!request.error_picture.empty()) write_png(request.error_picture, error_picture(image, reference, 0.2f), 0);
+  if (request.json) {
+    const nlohmann::ordered_json json = {{"rmse", d.rmse},         {"relative_rmse", d.relative_rmse},
+                                         {"relative_mse", d.relative_mse}, {"bias", d.bias},
+                                         {"block_error", d.block_error},   {"ssim", d.ssim}};
+    fmt::print("{}\n", json.dump());
+  } else {
+    fmt::print("RMSE            {:.6g}  ({:.3f}% of the reference's mean)\n", d.rmse, 100 * d.relative_rmse);
+    fmt::print("relative MSE    {:.6g}\n", d.relative_mse);
+    fmt::print("bias            {:+.3f}%\n", 100 * d.bias);
+    fmt::print("8x8-block error {:.3f}%\n", 100 * d.block_error);
+    fmt::print("SSIM            {:.5f}\n", d.ssim);
+  }
+  const bool failed = request.fail_above >= 0 && !(d.relative_rmse <= request.fail_above);
+  if (failed) fmt::print(stderr, "isophote: relative RMSE {:.4g} is above {:.4g}\n", d.relative_rmse, request.fail_above);
+  return failed ? 1 : 0;
+}
+
+}  // namespace isophote::app

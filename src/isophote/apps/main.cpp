@@ -1,0 +1,80 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "isophote/apps/commands.h"
+#include "isophote/core/error.h"
+
+namespace {
+
+using namespace isophote;
+
+void add_render(CLI::App& program, app::RenderRequest& request) {
+  CLI::App* verb = program.add_subcommand("render", "Render a scene (.glb, .gltf or .toml)");
+  verb->add_option("scene", request.scene, "scene file")->required();
+  verb->add_option("-o,--output", request.outputs, "picture: .exr (all layers) or .png; may be repeated")->allow_extra_args(false);
+  for (const app::Option& option : app::options()) {
+    const std::string name(option.name);
+    verb->add_option_function<std::string>(
+            "--" + name, [&request, name](const std::string& value) { request.settings.emplace_back(name, value); },
+            std::string(option.help))
+        ->type_name(std::string(option.values));
+  }
+  verb->add_option("--threads", request.threads, "worker threads (default: all)")->check(CLI::Range(0, 1024));
+  verb->add_option("--stats", request.stats, "write statistics as JSON")->type_name("FILE");
+  verb->add_option("--progress", request.progress, "bar, json or none (default: bar on a terminal)")
+      ->check(CLI::IsMember({"bar", "json", "none"}));
+  verb->add_option("--preview", request.preview, "rewrite this PNG from coarse to fine while working")->type_name("FILE");
+  verb->add_option("--show-records", request.records_picture, "write a PNG of the records and their footprints")->type_name("FILE");
+  verb->add_option("--save-cache", request.save_cache, "write the records")->type_name("FILE");
+  verb->add_option("--load-cache", request.load_cache, "start with these records")->type_name("FILE");
+  verb->add_flag("!--no-check", request.check, "do not measure the error");
+}
+
+void add_compare(CLI::App& program, app::CompareRequest& request) {
+  CLI::App* verb = program.add_subcommand("compare", "Measure how a picture differs from a reference");
+  verb->add_option("image", request.image, "EXR picture")->required();
+  verb->add_option("reference", request.reference, "EXR reference")->required();
+  verb->add_option("--layer", request.layer, "layer of both, such as irradiance (default: the colours)");
+  verb->add_option("--block", request.block, "average over blocks of N x N pixels first")->check(CLI::Range(1, 4096));
+  verb->add_option("--error-picture", request.error_picture, "write a PNG: blue too dark, red too bright")->type_name("FILE");
+  verb->add_option("--fail-above", request.fail_above, "exit with 1 where the relative RMSE is above this");
+  verb->add_flag("--json", request.json, "print JSON");
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("Isophote: global illumination by caching light and its derivatives", "isophote");
+  program.require_subcommand(1);
+  program.set_version_flag("--version", ISOPHOTE_VERSION);
+  app::RenderRequest render_request;
+  app::CompareRequest compare_request;
+  add_render(program, render_request);
+  add_compare(program, compare_request);
+  program.add_subcommand("methods", "List the methods, estimators and metrics");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);
+    throw UsageError(std::string(error.what()) + " (see isophote --help)");
+  }
+  if (program.got_subcommand("render")) return app::render(render_request);
+  if (program.got_subcommand("compare")) return app::compare(compare_request);
+  return app::methods();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "isophote: %s\n", error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "isophote: out of memory\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "isophote: %s\n", error.what());
+  }
+  return 1;
+}

@@ -1,0 +1,231 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "isophote/apps/commands.h"
+#include "isophote/apps/progress_display.h"
+#include "isophote/apps/statistics.h"
+#include "isophote/apps/threads.h"
+#include "isophote/cache/record_file.h"
+#include "isophote/core/error.h"
+#include "isophote/image/png.h"
+#include "isophote/integrate/record_picture.h"
+#include "isophote/integrate/render.h"
+#include "isophote/integrate/scene_hash.h"
+#include "isophote/integrate/solve_records.h"
+#include "isophote/load/scene_file.h"
+
+namespace isophote::app {
+namespace {
+
+bool ends_with(const std::string& text, std::string_view end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// Flags that cannot work are refused before anything is read.
+void check_request(const RenderRequest& request) {
+  if (request.outputs.empty() && request.stats.empty() && request.records_picture.empty() && request.save_cache.empty())
+    throw UsageError("nothing to write: give -o FILE.exr or FILE.png (or --stats, --show-records, --save-cache)");
+  for (const std::string& output : request.outputs)
+    if (!ends_with(output, ".exr") && !ends_with(output, ".png"))
+      throw UsageError(fmt::format("-o {}: the name must end in .exr or .png", output));
+  for (const std::string& png : {request.preview, request.records_picture})
+    if (!png.empty() && !ends_with(png, ".png")) throw UsageError(fmt::format("{}: the name must end in .png", png));
+}
+
+/// Flags win over the scene file, the scene file over defaults.
+RenderSettings merged_settings(const RenderRequest& request, const std::vector<Setting>& from_file) {
+  RenderSettings settings;
+  for (const Setting& s : from_file) apply_setting(settings, s.table, s.key, s.value, s.place);
+  for (const auto& [name, value] : request.settings) {
+    const auto options = app::options();
+    const auto option = std::find_if(options.begin(), options.end(), [&n = name](const Option& o) { return o.name == n; });
+    try {
+      option->apply(settings, value);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("--{}: {}", name, error.what()));
+    }
+  }
+  return settings;
+}
+
+/// What shapes records, for the record file. The view and the seed do not matter: records of another view or seed serve as well.
+std::string record_settings(const Job& job) {
+  const RadiusBounds& b = job.method.settings.bounds;
+  return fmt::format("estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-radius={}\nmax-radius={}\n"
+                     "bound-gradient={}\nbound-neighbours={}\ngather={}x{}\nsecondary={}\nmax-depth={}\n",
+                     job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels,
+                     b.min_length, b.max_length, b.gradient, b.neighbours, job.strata.polar, job.strata.azimuthal,
+                     job.method.secondary, job.world.max_depth);
+}
+
+/// One run of `isophote render`, step by step.
+class Rendering {
+ public:
+  explicit Rendering(const RenderRequest& request)
+      : request_(request), threads_(request.threads), display_(request.progress), start_(Clock::now()) {
+    // What the flags say wrongly is said before the scene is read.
+    chosen_method(merged_settings(request, {}));
+  }
+
+  int run() {
+    load();
+    Film film(job_->width, job_->height);
+    if (job_->method.caches()) render_cached(film);
+    else final_pass(nullptr, film);
+    write(film);
+    display_.clear();
+    statistics_.print();
+    return statistics_.cancelled ? 1 : 0;
+  }
+
+ private:
+  void load() {
+    display_.show("load", 0);
+    loaded_ = load_scene(request_.scene, [this](const std::string& line) {
+      display_.clear();
+      fmt::print(stderr, "isophote: warning: {}\n", line);
+    });
+    settings_ = merged_settings(request_, loaded_.settings);
+    const Method method = chosen_method(settings_);
+    const Camera camera = chosen_camera(settings_, loaded_.scene);
+    rays_.emplace(loaded_.scene);
+    emitters_.emplace(loaded_.scene);
+    job_.emplace(Job{World{loaded_.scene, *rays_, *emitters_, settings_.max_depth.value_or(std::numeric_limits<int>::max())}, camera});
+    Job& job = *job_;
+    job.height = settings_.height.value_or(512);
+    job.width = settings_.width.value_or(std::clamp(static_cast<int>(std::lround(512 * (camera.aspect > 0 ? camera.aspect : 1))), 1, 32768));
+    job.samples = settings_.samples;
+    job.seed = settings_.seed;
+    job.method = method;
+    job.strata = Strata::about(settings_.rays);
+    job.parallel = threads_.parallel_for();
+    job.progress.report = [this](std::string_view phase, double done) { display_.show(phase, done); };
+    job.progress.cancelled = Interruptible::interrupted;
+    if (!request_.preview.empty())
+      job.progress.preview = [this](const RgbImage& image) { write_png(request_.preview, image, exposure(image)); };
+    statistics_.time.load = Clock::now() - start_;
+  }
+
+  void render_cached(Film& film) {
+    const Clock begin = Clock::now();
+    RecordCache cache = starting_cache();
+    if (settings_.lazy) {
+      const LazyReport report = render_lazily(*job_, cache, film);
+      statistics_.time.build = report.build;
+      statistics_.rays += report.build_rays;
+      note(report.final, Clock::now() - begin - report.build);
+      cache.reindex();
+    } else {
+      build(cache);
+      statistics_.time.build = Clock::now() - begin;
+      final_pass(&cache, film);
+    }
+    statistics_.records = cache.records().size();
+    if (!request_.save_cache.empty()) save(cache);
+    if (!request_.records_picture.empty()) write_png(request_.records_picture, record_picture(*job_, cache), 0);
+    if (request_.check && !statistics_.cancelled) check(cache);
+  }
+
+  RecordCache starting_cache() {
+    RecordCache cache = empty_cache(*job_);
+    if (request_.load_cache.empty()) return cache;
+    const RecordFile file = read_records(request_.load_cache);
+    require_match(request_.load_cache, file, scene_hash(loaded_.scene), record_settings(*job_));
+    for (const Record& record : file.records) cache.insert(record);
+    return cache;
+  }
+
+  void build(RecordCache& cache) {
+    BuildReport report;
+    if (settings_.records) {
+      Solved solved = build_with_records(*job_, static_cast<std::size_t>(*settings_.records));
+      cache = std::move(solved.cache);
+      report = solved.report;
+    } else {
+      report = build_in_rounds(*job_, cache);
+    }
+    statistics_.rounds = report.rounds;
+    statistics_.rays += report.rays;
+    statistics_.cancelled = report.cancelled;
+  }
+
+  void check(const RecordCache& cache) {
+    display_.show("check", 0);
+    const Clock begin = Clock::now();
+    statistics_.error = check_points(*job_, cache, statistics_.rays.total() / 5);
+    statistics_.rays += statistics_.error.rays;
+    statistics_.time.check = Clock::now() - begin;
+  }
+
+  void final_pass(const RecordCache* cache, Film& film) {
+    const Clock begin = Clock::now();
+    const RenderReport report = isophote::render(*job_, cache, film);
+    note(report, Clock::now() - begin);
+  }
+
+  void note(const RenderReport& report, const Clock& spent) {
+    statistics_.time.final = spent;
+    statistics_.rays += report.rays;
+    statistics_.uncovered = report.uncovered;
+    statistics_.cancelled = statistics_.cancelled || report.cancelled;
+  }
+
+  void save(const RecordCache& cache) {
+    const auto records = cache.records();
+    write_records(request_.save_cache, {scene_hash(loaded_.scene), record_settings(*job_), {records.begin(), records.end()}});
+  }
+
+  float exposure(const RgbImage& image) const { return settings_.exposure ? *settings_.exposure : auto_exposure(image); }
+
+  void write(const Film& film) {
+    for (const std::string& output : request_.outputs) {
+      if (ends_with(output, ".exr")) {
+        write_exr(output, film.exr());
+        continue;
+      }
+      const RgbImage image = film.color();
+      write_png(output, image, exposure(image));
+      fmt::print("{}: exposure {:+.2f} EV\n", output, exposure(image));
+    }
+    fill_statistics();
+    if (!request_.stats.empty()) statistics_.write_json(request_.stats);
+  }
+
+  void fill_statistics() {
+    Statistics& s = statistics_;
+    const Job& job = *job_;
+    s.method = job.method.name;
+    if (job.method.caches()) {
+      s.estimator = job.method.estimator->name;
+      s.metric = job.method.metric->name;
+      s.a = job.method.settings.a;
+    }
+    s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
+    s.error_asked = settings_.error, s.seed = settings_.seed, s.threads = threads_.count();
+    s.width = job.width, s.height = job.height, s.triangles = loaded_.scene.triangle_count();
+    s.samples = static_cast<std::uint64_t>(job.width) * job.height * job.samples;
+    s.time.total = Clock::now() - start_;
+  }
+
+  const RenderRequest& request_;
+  Threads threads_;
+  Interruptible interruptible_;
+  ProgressDisplay display_;
+  Clock start_;
+  RenderSettings settings_;
+  LoadedScene loaded_;
+  std::optional<RayCaster> rays_;
+  std::optional<Emitters> emitters_;
+  std::optional<Job> job_;
+  Statistics statistics_;
+};
+
+}  // namespace
+
+int render(const RenderRequest& request) {
+  check_request(request);
+  return Rendering(request).run();
+}
+
+}  // namespace isophote::app

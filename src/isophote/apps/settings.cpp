@@ -1,0 +1,153 @@
+#include "isophote/apps/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "isophote/core/error.h"
+
+namespace isophote::app {
+namespace {
+
+/// The whole of `text` as a number within [low, high].
+template <class T>
+T number(const std::string& text, double low, double high) {
+  std::size_t used = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = std::string::npos;
+  }
+  const bool whole = !std::is_integral_v<T> || value == std::floor(value);
+  if (used != text.size() || !std::isfinite(value) || value < low || value > high || !whole)
+    throw UsageError(fmt::format("wants a{} number from {} to {}, not '{}'", std::is_integral_v<T> ? " whole" : "", low, high, text));
+  return static_cast<T>(value);
+}
+
+bool on_off(const std::string& text) {
+  if (text != "on" && text != "off") throw UsageError(fmt::format("wants on or off, not '{}'", text));
+  return text == "on";
+}
+
+/// "512x512"; scene files may also say [512, 512].
+void size(RenderSettings& s, const std::string& text) {
+  const std::size_t cross = text.find_first_of("x,");
+  if (cross == std::string::npos) throw UsageError(fmt::format("wants WIDTHxHEIGHT, not '{}'", text));
+  s.width = number<int>(text.substr(0, cross), 1, 32768);
+  s.height = number<int>(text.substr(cross + 1), 1, 32768);
+}
+
+using S = RenderSettings;
+using T = const std::string&;
+
+constexpr Option table[] = {
+    {"film", "size", "WxH", "picture size in pixels; keeps the vertical field of view", size},
+    {"film", "camera", "CAMERA", "name or index of a camera of the scene, or eye;target;fov", [](S& s, T t) { s.camera = t; }},
+    {"film", "spp", "N", "samples a pixel", [](S& s, T t) { s.samples = number<int>(t, 1, 1 << 20); }},
+    {"film", "exposure", "EV|auto", "stops, for PNG pictures",
+     [](S& s, T t) { s.exposure = t == "auto" ? std::nullopt : std::optional(number<float>(t, -100, 100)); }},
+    {"method", "method", "NAME", "one of those that 'isophote methods' lists", [](S& s, T t) { s.method = find_method(t).name; }},
+    {"method", "estimator", "NAME", "another estimator than the method's", [](S& s, T t) { s.estimator = find_estimator(t).name; }},
+    {"method", "metric", "NAME", "another metric than the method's", [](S& s, T t) { s.metric = find_metric(t).name; }},
+    {"method", "error", "E", "wanted mean relative error of the cached irradiance",
+     [](S& s, T t) { s.error = number<double>(t, 1e-5, 10); }},
+    {"method", "a", "A", "the metric's own threshold, in place of --error", [](S& s, T t) { s.a = number<float>(t, 1e-4, 1); }},
+    {"method", "records", "N", "solve for the threshold that gives about N records",
+     [](S& s, T t) { s.records = number<int>(t, 1, 10'000'000); }},
+    {"method", "rays", "N", "gather rays of a record", [](S& s, T t) { s.rays = number<int>(t, 12, 1 << 24); }},
+    {"method", "secondary", "on|off", "do gather rays read the cache where they hit?",
+     [](S& s, T t) { s.secondary = on_off(t); }},
+    {"method", "max-depth", "N", "scattering events after the camera; 1 is direct light (default: no limit)",
+     [](S& s, T t) { s.max_depth = number<int>(t, 1, 1 << 30); }},
+    {"method", "order", "rounds|lazy", "how the cache is built",
+     [](S& s, T t) {
+       if (t != "rounds" && t != "lazy") throw UsageError(fmt::format("wants rounds or lazy, not '{}'", t));
+       s.lazy = t == "lazy";
+     }},
+    {"method", "min-pixels", "N", "lower bound of radii, in pixels", [](S& s, T t) { s.min_pixels = number<float>(t, 0, 1e6); }},
+    {"method", "max-pixels", "N", "upper bound of radii, in pixels", [](S& s, T t) { s.max_pixels = number<float>(t, 0, 1e6); }},
+    {"method", "min-radius", "R", "lower bound of radii, in scene units", [](S& s, T t) { s.min_radius = number<float>(t, 0, 1e30); }},
+    {"method", "max-radius", "R", "upper bound of radii, in scene units", [](S& s, T t) { s.max_radius = number<float>(t, 0, 1e30); }},
+    {"method", "bound-gradient", "on|off", "bound radii by the relative gradient", [](S& s, T t) { s.bound_gradient = on_off(t); }},
+    {"method", "bound-neighbours", "on|off", "bound radii by those of neighbours", [](S& s, T t) { s.bound_neighbours = on_off(t); }},
+    {"method", "seed", "N", "of the random numbers", [](S& s, T t) { s.seed = number<std::uint64_t>(t, 0, 9e15); }},
+};
+
+Vec3 point(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<float> v;
+  for (std::string part; std::getline(in, part, ',');) v.push_back(number<float>(part, -1e30, 1e30));
+  if (v.size() != 3) throw UsageError(fmt::format("--camera: wants x,y,z, not '{}'", text));
+  return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+std::span<const Option> options() { return table; }
+
+void apply_setting(RenderSettings& settings, const std::string& table_name, const std::string& name, const std::string& value,
+                   const std::string& place) {
+  for (const Option& option : table) {
+    if (option.table != table_name || option.name != name) continue;
+    try {
+      return option.apply(settings, value);
+    } catch (const UsageError& error) {
+      throw UserError(fmt::format("{}: {}: {}", place, name, error.what()));
+    }
+  }
+  std::string known;
+  for (const Option& option : table)
+    if (option.table == table_name) known += (known.empty() ? "" : ", ") + std::string(option.name);
+  throw UserError(fmt::format("{}: unknown key '{}' in [{}]; there are: {}", place, name, table_name, known));
+}
+
+Method chosen_method(const RenderSettings& s) {
+  Method method = find_method(s.method);
+  if (!method.caches()) {
+    if (!s.estimator.empty() || !s.metric.empty() || s.records || s.lazy)
+      throw UsageError("method 'path' caches nothing: it takes no estimator, metric, number of records or order");
+    return method;
+  }
+  if (!s.estimator.empty()) method.estimator = &find_estimator(s.estimator);
+  if (!s.metric.empty()) {
+    method.metric = &find_metric(s.metric);
+    if (!method.metric->bounded) method.settings.bounds = {};
+  }
+  RadiusBounds& bounds = method.settings.bounds;
+  bounds.min_pixels = s.min_pixels.value_or(bounds.min_pixels);
+  bounds.max_pixels = s.max_pixels.value_or(bounds.max_pixels);
+  bounds.min_length = s.min_radius.value_or(bounds.min_length);
+  bounds.max_length = s.max_radius.value_or(bounds.max_length);
+  bounds.gradient = s.bound_gradient.value_or(bounds.gradient);
+  bounds.neighbours = s.bound_neighbours.value_or(bounds.neighbours);
+  method.settings.a = s.a.value_or(std::min(1.0f, method.metric->a_per_root_error * static_cast<float>(std::sqrt(s.error))));
+  // A cached value has no depth: with a limit on depth, gather rays follow their paths.
+  method.secondary = s.secondary.value_or(method.secondary && !s.max_depth);
+  if (method.secondary && s.max_depth) throw UsageError("--secondary on has no limit of depth: leave out --max-depth");
+  check_combination(method);
+  return method;
+}
+
+Camera chosen_camera(const RenderSettings& s, const Scene& scene) {
+  if (s.camera.empty()) return scene.cameras.front();
+  if (s.camera.find(';') != std::string::npos) {
+    std::istringstream in(s.camera);
+    std::string eye, target, fov;
+    std::getline(in, eye, ';'), std::getline(in, target, ';'), std::getline(in, fov);
+    const Vec3 from = point(eye), to = point(target);
+    if (from == to) throw UsageError("--camera: eye and target are the same point");
+    return Camera::look_at(from, to, number<float>(fov, 0.01, 179) * pi / 180);
+  }
+  std::string known;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (s.camera == scene.cameras[i].name || s.camera == std::to_string(i)) return scene.cameras[i];
+    known += fmt::format("{}{} '{}'", i ? ", " : "", i, scene.cameras[i].name);
+  }
+  throw UsageError(fmt::format("--camera: there is no '{}'; there are: {}", s.camera, known));
+}
+
+}  // namespace isophote::app

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "isophote/cache/catalogue.h"
+#include "isophote/scene/scene.h"
+
+namespace isophote::app {
+
+/// Everything `render` can be told, with its defaults. Flags and scene files write here through one table.
+struct RenderSettings {
+  std::string method = "cached", estimator, metric;
+  std::optional<int> width, height;
+  std::string camera;
+  int samples = 16;
+  double error = 0.02;
+  std::optional<float> a;
+  int rays = 800;
+  std::optional<int> max_depth, records;
+  std::optional<bool> secondary;
+  bool lazy = false;
+  std::optional<float> min_pixels, max_pixels, min_radius, max_radius;
+  std::optional<bool> bound_gradient, bound_neighbours;
+  std::uint64_t seed = 0;
+  std::optional<float> exposure;  ///< stops; none: chosen from the picture
+};
+
+/// One setting: `--name VALUE` on the command line, `name = VALUE` in a scene file's [film] or [method] table.
+struct Option {
+  std::string_view table, name, values, help;
+  void (*apply)(RenderSettings&, const std::string& value);  ///< throws UsageError saying what it wants
+};
+std::span<const Option> options();
+
+/// Applies one setting of a scene file. Throws UserError `PLACE: reason` for unknown keys and bad values.
+void apply_setting(RenderSettings& settings, const std::string& table, const std::string& name, const std::string& value,
+                   const std::string& place);
+
+/// The method these settings ask for, its combination checked.
+Method chosen_method(const RenderSettings& settings);
+
+/// A camera of the scene by name or index, or `eye;target;fov` in scene units and degrees. Throws UsageError.
+Camera chosen_camera(const RenderSettings& settings, const Scene& scene);
+
+}  // namespace isophote::app

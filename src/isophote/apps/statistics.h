@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "isophote/integrate/check_points.h"
+#include "isophote/integrate/job.h"
+
+namespace isophote::app {
+
+/// What a render took and measured, for people and for scripts.
+struct Statistics {
+  std::string method, estimator, metric;
+  bool lazy = false, secondary = false, cancelled = false;
+  double error_asked = 0;
+  float a = 0;
+  Strata strata;
+  std::size_t records = 0, rounds = 0, triangles = 0;
+  std::uint64_t uncovered = 0, samples = 0, seed = 0;
+  int threads = 0, width = 0, height = 0;
+  RayCounts rays;
+  struct Phases {
+    Clock load, build, check, final, total;
+  } time;
+  MeasuredError error;
+
+  /// Fills in what the operating system knows: the most memory held so far, in bytes.
+  static std::uint64_t peak_memory();
+  void print() const;
+  void write_json(const std::string& path) const;
+};
+
+}  // namespace isophote::app

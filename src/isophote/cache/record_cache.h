@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "isophote/cache/octree.h"
+#include "isophote/validity/record.h"
+
+namespace isophote {
+
+/// A place that asks for its irradiance. `normal` decides which records serve (the interpolated normal that records live on);
+/// `facing` is what the value is wanted for (the normal map's normal), reached by the rotational gradient.
+struct Query {
+  Vec3 position;
+  Vec3 normal;
+  Vec3 facing;
+};
+
+/// Records and the index that finds them. Reading is safe from any number of threads while nobody writes.
+class RecordCache {
+ public:
+  explicit RecordCache(const Box& bounds) : bounds_(bounds), octree_(bounds) {}
+
+  std::span<const Record> records() const { return records_; }
+  const Box& bounds() const { return bounds_; }
+
+  std::uint32_t insert(const Record& record);
+  /// The records, for `settle` to change between insertions. Radii may only shrink: the index does not follow.
+  std::span<Record> settling() { return records_; }
+  /// Builds the index anew, tight about footprints that have shrunk.
+  void reindex();
+
+  /// Irradiance at the query, interpolated among the records that serve it: sum of weight times extrapolated value over sum of
+  /// weights [Ward, Heckbert 1992]. Nothing where no record serves.
+  std::optional<Rgb> interpolate(const Query& query) const;
+  /// Does any record serve?
+  bool covers(const Query& query) const;
+
+  /// Calls visit(record) for all records whose footprint may reach `p`, and for some others near it.
+  template <class Visit>
+  void visit_near(const Vec3& p, Visit&& visit) const {
+    octree_.any(p, [&](std::uint32_t id) { return visit(records_[id]), false; });
+  }
+
+ private:
+  Box bounds_;
+  std::vector<Record> records_;
+  Octree octree_;
+};
+
+/// The error of using `record` at (position, normal), as its footprint measures it: under 1 inside. Infinite where the query lies
+/// in front of the record [Ward, Rubinstein, Clear 1988] or on the other side of the surface.
+float footprint_error(const Record& record, const Vec3& position, const Vec3& normal);
+
+/// The weight for an error in [0, 1).
+float falloff_weight(Falloff falloff, float error);
+
+}  // namespace isophote

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "isophote/validity/record.h"
+
+namespace isophote {
+
+/// What a record file holds: the records, and what they were made for.
+struct RecordFile {
+  std::uint64_t scene = 0;  ///< hash of the scene
+  std::string settings;     ///< lines `key=value` of everything that shaped the records
+  std::vector<Record> records;
+};
+
+/// Writes a versioned, little-endian, checksummed file, complete or not at all. Throws UserError.
+void write_records(const std::string& path, const RecordFile& file);
+
+/// Throws UserError `PATH: reason` for anything but a whole, unharmed file of this version with finite, usable records.
+RecordFile read_records(const std::string& path);
+
+/// Throws UserError `PATH: reason` where the file's scene or settings are not those given; names the first setting that differs.
+void require_match(const std::string& path, const RecordFile& file, std::uint64_t scene, const std::string& settings);
+
+}  // namespace isophote

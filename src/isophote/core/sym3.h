@@ -1,0 +1,26 @@
+#pragma once
+
+#include "isophote/core/vec.h"
+
+namespace isophote {
+
+/// A symmetric 3x3 matrix.
+template <class T>
+struct Sym3T {
+  T xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+  /// `s` times the identity.
+  static constexpr Sym3T scaled_identity(T s) { return {s, 0, 0, s, 0, s}; }
+  constexpr bool operator==(const Sym3T&) const = default;
+};
+
+using Sym3 = Sym3T<float>;
+using Sym3d = Sym3T<double>;
+
+/// v . (A v)
+template <class T>
+constexpr T quadratic_form(const Sym3T<T>& a, const Vec3T<T>& v) {
+  return a.xx * v.x * v.x + a.yy * v.y * v.y + a.zz * v.z * v.z + 2 * (a.xy * v.x * v.y + a.xz * v.x * v.z + a.yz * v.y * v.z);
+}
+
+}  // namespace isophote

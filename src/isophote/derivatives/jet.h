@@ -1,0 +1,33 @@
+#pragma once
+
+#include "isophote/core/rgb.h"
+#include "isophote/core/vec.h"
+
+namespace isophote {
+
+/// The partial derivatives of a value along x, y and z of world space.
+template <class V>
+struct Gradient {
+  V x{}, y{}, z{};
+
+  /// The change of the value along a small displacement or rotation vector.
+  V dot(const Vec3& d) const { return x * d.x + y * d.y + z * d.z; }
+  bool operator==(const Gradient&) const = default;
+};
+
+/// How far the surfaces are that a record sees, along cosine-distributed rays.
+struct DistanceStats {
+  float harmonic_mean = 0;  ///< infinity under an open sky
+};
+
+/// A value with its derivatives. Units: irradiance in W/m2 (cosine-weighted solid angle), gradients per metre and per radian.
+/// The value at position + d with the normal turned from n_i to n is about value + translational.dot(d) + rotational.dot(n_i x n).
+template <class V>
+struct Jet {
+  V value{};
+  Gradient<V> translational;  ///< the position moves, the normal stays
+  Gradient<V> rotational;     ///< the normal turns, the position stays
+  DistanceStats distances;
+};
+
+}  // namespace isophote

@@ -1,0 +1,99 @@
+#include "isophote/derivatives/ward_heckbert_1992.h"
+
+#include <numbers>
+
+namespace isophote {
+namespace {
+
+constexpr double half_turn = std::numbers::pi;
+
+struct Azimuth {
+  double cos, sin;
+};
+Azimuth azimuth(const Strata& strata, double k) {
+  const double phi = strata.azimuth(k);
+  return {std::cos(phi), std::sin(phi)};
+}
+
+/// A tangential gradient in the local frame, turned into world space.
+struct TangentGradient {
+  Rgbd u, v;
+
+  void add(const Azimuth& direction, const Rgbd& amount) { u += amount * direction.cos, v += amount * direction.sin; }
+  /// Adds along the direction a quarter turn ahead, that of growing azimuth.
+  void add_across(const Azimuth& direction, const Rgbd& amount) { u -= amount * direction.sin, v += amount * direction.cos; }
+
+  Gradient<Rgb> to_world(const Frame& frame) const {
+    const Framed f(frame);
+    return {Rgb(u * f.u.x + v * f.v.x), Rgb(u * f.u.y + v * f.v.y), Rgb(u * f.u.z + v * f.v.z)};
+  }
+};
+
+double rotation_weight(const Strata& s, int j, RotationWeights weights) {
+  if (weights == RotationWeights::classical) {
+    const double sin2 = (j + 0.5) / s.polar;
+    return half_turn / s.size() * std::sqrt(sin2 / (1 - sin2));
+  }
+  const double inner = s.theta_edge(j), outer = s.theta_edge(j + 1);
+  return 2 * std::sin(half_turn / s.azimuthal) * ((outer - inner) / 2 - (std::sin(2 * outer) - std::sin(2 * inner)) / 4);
+}
+
+Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeights weights) {
+  const Strata& s = gather.strata;
+  std::vector<Rgbd> by_azimuth(s.azimuthal);
+  for (int j = 0; j < s.polar; ++j) {
+    const double weight = rotation_weight(s, j, weights);
+    for (int k = 0; k < s.azimuthal; ++k) by_azimuth[k] += Rgbd(gather.at(j, k).radiance) * weight;
+  }
+  TangentGradient result;
+  for (int k = 0; k < s.azimuthal; ++k) result.add_across(azimuth(s, k + 0.5), by_azimuth[k]);
+  return result.to_world(gather.frame);
+}
+
+/// The radiance step from `from` to `to` over the wall between them, over the wall's distance: the nearer of the two, since
+/// it is the nearer surface that covers and uncovers the other. Between two samples of the sky nothing moves.
+Rgbd step(const GatherSample& from, const GatherSample& to) {
+  return (Rgbd(to.radiance) - Rgbd(from.radiance)) / static_cast<double>(std::min(from.distance, to.distance));
+}
+
+Gradient<Rgb> translational_gradient(const HemisphereGather& gather) {
+  const Strata& s = gather.strata;
+  TangentGradient result;
+  for (int k = 0; k < s.azimuthal; ++k) {
+    const int before = (k + s.azimuthal - 1) % s.azimuthal;
+    Rgbd outward, across;
+    for (int j = 0; j < s.polar; ++j) {
+      const double sin_inner = s.sin_edge(j), cos_inner = s.cos_edge(j);
+      if (j > 0) outward += step(gather.at(j - 1, k), gather.at(j, k)) * (sin_inner * cos_inner * cos_inner);
+      across += step(gather.at(j, before), gather.at(j, k)) * (s.sin_edge(j + 1) - sin_inner);
+    }
+    result.add(azimuth(s, k + 0.5), outward * (2 * half_turn / s.azimuthal));
+    result.add_across(azimuth(s, k), across);
+  }
+  return result.to_world(gather.frame);
+}
+
+}  // namespace
+
+Jet<Rgb> irradiance(const HemisphereGather& gather) {
+  Rgbd sum;
+  double inverse_distances = 0;
+  for (const GatherSample& sample : gather.samples) {
+    sum += Rgbd(sample.radiance);
+    inverse_distances += 1 / static_cast<double>(sample.distance);
+  }
+  const double n = gather.strata.size();
+  Jet<Rgb> jet;
+  jet.value = Rgb(sum * (half_turn / n));
+  jet.distances.harmonic_mean = static_cast<float>(n / inverse_distances);
+  return jet;
+}
+
+Jet<Rgb> ward_heckbert_1992(const HemisphereGather& gather, RotationWeights weights) {
+  Jet<Rgb> jet = irradiance(gather);
+  jet.translational = translational_gradient(gather);
+  jet.rotational = rotational_gradient(gather, weights);
+  return jet;
+}
+
+}  // namespace isophote

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "isophote/derivatives/gather.h"
+#include "isophote/derivatives/jet.h"
+
+namespace isophote {
+
+/// Irradiance, its mean over the strata, and no derivatives [Ward, Rubinstein, Clear 1988].
+Jet<Rgb> irradiance(const HemisphereGather& gather);
+
+/// Which weight a stratum has in the rotational gradient: `classical` is the tangent at its centre, as published, whose
+/// bias falls only with the root of the number of rings; `exact` is the stratum's integral.
+enum class RotationWeights { classical, exact };
+
+/// Irradiance with the rotational and translational gradients of the stratified hemisphere [Ward, Heckbert 1992]: radiance
+/// steps over the walls between strata, each wall at the nearer of its two distances.
+Jet<Rgb> ward_heckbert_1992(const HemisphereGather& gather, RotationWeights weights);
+
+}  // namespace isophote

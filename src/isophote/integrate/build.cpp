@@ -1,0 +1,166 @@
+#include "isophote/integrate/build.h"
+
+#include <algorithm>
+
+#include "isophote/integrate/render.h"
+
+namespace isophote {
+namespace {
+
+/// Records in a round: a constant, so that the picture does not depend on the machine. Large enough to keep many threads busy.
+constexpr std::size_t batch_size = 64;
+/// A round is filled up to this size with points nearer to each other than they should be, rather than leave threads idle.
+constexpr std::size_t least_batch = 8;
+/// Passes over all pixels end when one finds fewer than this part of them uncovered.
+constexpr double good_coverage = 1e-3;
+constexpr int most_passes = 6;
+
+/// An uncovered point of the picture. `reach` is the radius that a record here is expected to have: that of the record nearest in
+/// terms of its own footprint.
+struct Candidate {
+  Place place;
+  std::uint64_t rank = 0;  ///< its turn, by a hash of its pixel: well spread
+  float nearest = infinity;
+  float reach = 0;
+
+  /// Takes note of a record; true if it serves here.
+  bool meet(const Record& record) {
+    if (footprint_error(record, place.position, place.normal) < 1) return true;
+    if (dot(record.normal, place.normal) <= 0) return false;
+    const float distance = quadratic_form(record.footprint.shape, place.position - record.position);
+    if (distance < nearest) nearest = distance, reach = record.footprint.radius;
+    return false;
+  }
+};
+
+class Builder {
+ public:
+  Builder(const Job& job, RecordCache& cache) : job_(job), cache_(cache) {}
+
+  BuildReport run() {
+    int stride = 1;
+    while (stride * 16 <= std::min(job_.width, job_.height) && stride < 64) stride *= 2;
+    for (double done = 0; stride > 1 && !report_.cancelled; stride /= 2, done += 0.1) {
+      cover(uncovered(stride, 0));
+      job_.progress.tell("build", done);
+      if (job_.progress.preview) job_.progress.preview(coarse_picture(job_, cache_, stride));
+    }
+    const double pixels = static_cast<double>(job_.width) * job_.height;
+    for (int pass = 0; pass < most_passes && !report_.cancelled; ++pass) {
+      std::vector<Candidate> left = uncovered(1, pass);
+      const bool enough = static_cast<double>(left.size()) < good_coverage * pixels;
+      cover(std::move(left));
+      if (enough) break;
+    }
+    cache_.reindex();
+    job_.progress.tell("build", 1);
+    return report_;
+  }
+
+ private:
+  /// The uncovered points that sample `sample` of every stride-th pixel sees, ordered by rank.
+  std::vector<Candidate> uncovered(int stride, int sample) {
+    const auto columns = static_cast<std::size_t>((job_.width + stride - 1 - stride / 2) / stride);
+    const auto rows = static_cast<std::size_t>((job_.height + stride - 1 - stride / 2) / stride);
+    std::vector<std::vector<Candidate>> found(rows);
+    report_.rays += for_each(job_.parallel, rows, 1, [&](std::size_t row, RayCounts& counts) {
+      for (std::size_t column = 0; column < columns; ++column) {
+        const int x = stride / 2 + static_cast<int>(column) * stride, y = stride / 2 + static_cast<int>(row) * stride;
+        Sampler stream = job_.sampler(x, y, sample);
+        const FirstPoint seen = first_point(job_.world, job_.camera_ray(x, y, stream), true, stream, counts.camera);
+        const std::optional<Place> place = place_of(job_, seen);
+        if (!place || cache_.covers({place->position, place->normal, place->normal})) continue;
+        Candidate candidate{*place, hash(job_.seed, x, y, sample)};
+        cache_.visit_near(place->position, [&](const Record& record) { candidate.meet(record); });
+        found[row].push_back(candidate);
+      }
+    });
+    std::vector<Candidate> all;
+    for (const auto& row : found) all.insert(all.end(), row.begin(), row.end());
+    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.rank < b.rank; });
+    return all;
+  }
+
+  /// Rounds, until records cover all candidates.
+  void cover(std::vector<Candidate> candidates) {
+    while (!candidates.empty()) {
+      if (job_.progress.stop()) {
+        report_.cancelled = true;
+        return;
+      }
+      const std::vector<std::uint32_t> fresh = add_records(pick(candidates));
+      std::vector<char> covered(candidates.size());
+      const auto records = cache_.records();
+      for_each(job_.parallel, candidates.size(), 256, [&](std::size_t i, RayCounts&) {
+        for (const std::uint32_t id : fresh) covered[i] |= candidates[i].meet(records[id]);
+      });
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (!covered[i]) candidates[kept++] = candidates[i];
+      candidates.resize(kept);
+      ++report_.rounds;
+    }
+  }
+
+  /// The first candidates in order that are not within each other's expected reach; takes them out of the list.
+  std::vector<Place> pick(std::vector<Candidate>& candidates) const {
+    std::vector<Candidate> picked, crowded;
+    std::size_t i = 0, kept = 0;
+    const auto clear = [&](const Candidate& c) {
+      return std::none_of(picked.begin(), picked.end(), [&](const Candidate& p) {
+        const float reach = std::max(p.reach, c.reach);
+        return length_squared(p.place.position - c.place.position) < reach * reach && dot(p.place.normal, c.place.normal) > 0;
+      });
+    };
+    for (; i < candidates.size() && picked.size() < batch_size; ++i) {
+      if (clear(candidates[i])) picked.push_back(candidates[i]);
+      else candidates[kept++] = candidates[i];
+    }
+    for (; i < candidates.size(); ++i) candidates[kept++] = candidates[i];
+    std::size_t first = 0;
+    while (picked.size() < least_batch && first < kept) picked.push_back(candidates[first++]);
+    candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(kept), candidates.end());
+    candidates.erase(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(first));
+    std::vector<Place> places;
+    for (const Candidate& c : picked) places.push_back(c.place);
+    return places;
+  }
+
+  std::vector<std::uint32_t> add_records(const std::vector<Place>& places) {
+    const std::size_t base = cache_.records().size();
+    std::vector<Record> made(places.size());
+    report_.rays += for_each(job_.parallel, places.size(), 1, [&](std::size_t i, RayCounts& counts) {
+      thread_local HemisphereGather scratch;
+      made[i] = make_record(job_, cache_, places[i], base + i, scratch, counts);
+    });
+    std::vector<std::uint32_t> fresh;
+    for (const Record& record : made) fresh.push_back(cache_.insert(record));
+    job_.method.settle(cache_.settling(), fresh);
+    return fresh;
+  }
+
+  const Job& job_;
+  RecordCache& cache_;
+  BuildReport report_;
+};
+
+}  // namespace
+
+std::optional<Place> place_of(const Job& job, const FirstPoint& seen) {
+  if (!seen.point || !seen.point->bsdf.has_diffuse() || seen.depth + 1 >= job.world.max_depth) return std::nullopt;
+  const SurfacePoint& p = *seen.point;
+  return Place{p.position, p.geometric_normal, p.shading_normal, job.pixel_footprint(seen.path_length)};
+}
+
+Record make_record(const Job& job, const RecordCache& cache, const Place& place, std::size_t id, HemisphereGather& scratch,
+                   RayCounts& counts) {
+  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), job.seed, id);
+  gather_hemisphere(job.world, job.method.secondary ? &cache : nullptr, place, job.strata, key, scratch, counts);
+  return job.method.make_record(scratch, {place.pixel, job.world.rays.scene_scale()});
+}
+
+RecordCache empty_cache(const Job& job) { return RecordCache(job.world.scene.bounds()); }
+
+BuildReport build_in_rounds(const Job& job, RecordCache& cache) { return Builder(job, cache).run(); }
+
+}  // namespace isophote

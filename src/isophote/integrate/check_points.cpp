@@ -1,0 +1,98 @@
+#include "isophote/integrate/check_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "isophote/integrate/gather.h"
+#include "isophote/integrate/build.h"
+#include "isophote/integrate/shade.h"
+
+namespace isophote {
+namespace {
+
+constexpr int rays_per_point = 3200;
+constexpr int fewest = 32, most = 1024;
+
+struct CheckPoint {
+  bool valid = false;
+  double cached = 0, reference = 0, standard_error = 0;
+};
+
+/// Standard error of the mean over strata, from half the squared differences of neighbours in azimuth.
+double standard_error(const HemisphereGather& gather) {
+  const Strata& s = gather.strata;
+  double sum = 0;
+  for (int j = 0; j < s.polar; ++j)
+    for (int k = 0; k < s.azimuthal; ++k) {
+      const double step = luminance(gather.at(j, k).radiance - gather.at(j, (k + 1) % s.azimuthal).radiance);
+      sum += step * step / 2;
+    }
+  return std::numbers::pi / s.size() * std::sqrt(sum);
+}
+
+/// A random visible point that the cache covers, and what a path-traced gather finds there.
+CheckPoint check_point(const Job& job, const RecordCache& cache, std::size_t index, RayCounts& counts) {
+  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::check), job.seed);
+  Sampler stream(key, static_cast<std::uint32_t>(index));
+  const Vec2 at = stream.next2();
+  const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
+  RayCounts rays;
+  const FirstPoint seen = first_point(job.world, ray, true, stream, rays.camera);
+  CheckPoint result;
+  if (const std::optional<Place> place = place_of(job, seen)) {
+    // Without the normal map: the gather's hemisphere is about the interpolated normal.
+    if (const auto cached = cache.interpolate({place->position, place->normal, place->normal})) {
+      HemisphereGather gather;
+      gather_hemisphere(job.world, nullptr, *place, Strata::about(rays_per_point), hash(key, index), gather, rays);
+      Rgbd sum;
+      for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
+      result = {true, luminance(Rgbd(*cached)), luminance(sum) * std::numbers::pi / gather.strata.size(),
+                standard_error(gather)};
+    }
+  }
+  counts.check += rays.total();
+  return result;
+}
+
+MeasuredError summary(const std::vector<CheckPoint>& points) {
+  MeasuredError error;
+  double cached = 0, reference = 0;
+  for (const CheckPoint& p : points)
+    if (p.valid) ++error.points, cached += p.cached, reference += p.reference;
+  if (error.points == 0) return error;
+  const double floor = 0.01 * reference / error.points;
+  std::vector<double> errors;
+  for (const CheckPoint& p : points) {
+    if (!p.valid) continue;
+    const double scale = p.reference + floor;
+    errors.push_back(scale > 0 ? std::abs(p.cached - p.reference) / scale : (p.cached == 0 ? 0.0 : 1.0));
+    error.mean += errors.back() / error.points;
+    error.noise += scale > 0 ? p.standard_error / scale / error.points : 0;
+  }
+  std::sort(errors.begin(), errors.end());
+  error.median = errors[errors.size() / 2];
+  error.p95 = errors[std::min(errors.size() - 1, static_cast<std::size_t>(0.95 * static_cast<double>(errors.size())))];
+  error.bias = reference > 0 ? cached / reference - 1 : 0;
+  return error;
+}
+
+}  // namespace
+
+MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget) {
+  std::vector<CheckPoint> points(fewest);
+  const auto measure = [&](std::size_t from) {
+    return for_each(job.parallel, points.size() - from, 1, [&](std::size_t i, RayCounts& counts) {
+      points[from + i] = check_point(job, cache, from + i, counts);
+    });
+  };
+  RayCounts rays = measure(0);
+  const double each = std::max(1.0, static_cast<double>(rays.check) / fewest);
+  const auto wanted = std::clamp(static_cast<double>(ray_budget) / each, double{fewest}, double{most});
+  points.resize(static_cast<std::size_t>(wanted));
+  rays += measure(fewest);
+  MeasuredError error = summary(points);
+  error.rays = rays;
+  return error;
+}
+
+}  // namespace isophote

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "isophote/cache/record_cache.h"
+#include "isophote/derivatives/gather.h"
+#include "isophote/trace/path.h"
+
+namespace isophote {
+
+/// A place for a record: a surface point with nothing of its material.
+struct Place {
+  Vec3 position;
+  Vec3 geometric_normal;
+  Vec3 normal;      ///< interpolated: the hemisphere is about it
+  float pixel = 0;  ///< length a pixel spans there
+};
+
+/// One ray into each stratum of the hemisphere above `place`. Radiance is a path's, or, where `cache` is not null and covers the hit,
+/// direct light plus the cached irradiance; emission of directly sampled emitters at the first hit is left out. `key` seeds the record.
+void gather_hemisphere(const World& world, const RecordCache* cache, const Place& place, Strata strata, std::uint64_t key,
+                       HemisphereGather& gather, RayCounts& counts);
+
+}  // namespace isophote

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "isophote/cache/record_cache.h"
+#include "isophote/trace/path.h"
+
+namespace isophote {
+
+/// Light scattered at a point towards a viewer, its diffuse indirect part read from a cache. Split as `Scattered` is.
+struct Shaded {
+  Rgb direct, indirect, irradiance;
+  bool covered = true;  ///< false: no record served, the sample went on as one unbiased path
+};
+
+/// Direct light by light sampling; the diffuse lobe's indirect light from `cache`; the glossy lobe by one ray, at whose hit the same
+/// rule applies. `depth` counts scattering events before this one.
+Shaded shade(const World& world, const RecordCache& cache, const SurfacePoint& point, const Vec3& wo, int depth,
+             Sampler& sampler, RayCounts& counts);
+
+/// What a surface point asks the cache.
+inline Query query_at(const SurfacePoint& point) { return {point.position, point.shading_normal, point.bsdf.frame.n}; }
+
+}  // namespace isophote

@@ -1,0 +1,46 @@
+#include "isophote/integrate/solve_records.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace isophote {
+namespace {
+
+constexpr float least_threshold = 1e-3f, greatest_threshold = 1.4f;
+constexpr int most_tries = 10;
+constexpr double close_enough = 0.02;
+
+}  // namespace
+
+Solved build_with_records(Job& job, std::size_t wanted) {
+  struct Try {
+    double log_a, log_records;
+  };
+  std::optional<Try> above, below;  // the nearest with too many records and with too few
+  std::optional<Solved> best;
+  double best_miss = 0, log_a = std::log(job.method.settings.a);
+  float best_a = job.method.settings.a;
+  RayCounts rays;
+  const double target = std::log(static_cast<double>(std::max<std::size_t>(wanted, 1)));
+  for (int i = 0; i < most_tries; ++i) {
+    job.method.settings.a = std::clamp(static_cast<float>(std::exp(log_a)), least_threshold, greatest_threshold);
+    Solved attempt{empty_cache(job), {}};
+    attempt.report = build_in_rounds(job, attempt.cache);
+    rays += attempt.report.rays;
+    const double log_records = std::log(static_cast<double>(std::max<std::size_t>(attempt.cache.records().size(), 1)));
+    const double miss = std::abs(log_records - target);
+    if (!best || miss < best_miss) best = std::move(attempt), best_miss = miss, best_a = job.method.settings.a;
+    if (miss < close_enough || best->report.cancelled) break;
+    (log_records > target ? above : below) = Try{log_a, log_records};
+    if (above && below)
+      log_a = above->log_a + (below->log_a - above->log_a) * (above->log_records - target) / (above->log_records - below->log_records);
+    else
+      log_a += 0.6 * (log_records - target);  // records grow about as a^-1.7
+  }
+  job.method.settings.a = best_a;
+  best->report.rays = rays;
+  return std::move(*best);
+}
+
+}  // namespace isophote

@@ -1,0 +1,78 @@
+#include "isophote/load/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "isophote/image/exr.h"
+#include "isophote/load/messages.h"
+#include "isophote/load/read_file.h"
+#include "isophote/load/scene_toml.h"
+
+namespace isophote {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_suffix(const std::string& path) {
+  std::string suffix = fs::path(path).extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
+
+bool is_gltf(const std::string& path) {
+  const std::string suffix = lower_suffix(path);
+  return suffix == ".glb" || suffix == ".gltf";
+}
+
+/// The path of a file that the scene file names. Throws UserError with the place where it is named.
+std::string resolve(const SceneToml::File& file, const fs::path& folder) {
+  const fs::path path = folder / file.path;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+    throw UserError(fmt::format("{}: no file '{}'", file.place, one_line(path.string())));
+  return path.string();
+}
+
+EnvironmentMap read_environment(const SceneToml::Environment& source, const fs::path& folder) {
+  const std::string path = resolve(source.file, folder);
+  const ExrFile file = read_exr(path);
+  EnvironmentMap map;
+  map.radiance = with_place(path, [&] { return file.rgb(""); });
+  map.rotation = static_cast<float>(std::remainder(source.rotation, 360.0) * (pi / 180.0));
+  for (std::size_t i = 0; i < map.radiance.pixels.size(); ++i) {
+    Rgb& pixel = map.radiance.pixels[i];
+    const auto width = static_cast<std::size_t>(map.radiance.width);
+    const bool valid = is_finite(pixel) && std::min({pixel.r, pixel.g, pixel.b}) >= 0;
+    if (!valid)
+      throw UserError(fmt::format("{}: pixel ({}, {}) is negative or not a number", path, i % width, i / width));
+    pixel = Rgb(Rgbd(pixel) * source.intensity);
+    if (!is_finite(pixel))
+      throw UserError(
+          fmt::format("{}: pixel ({}, {}) times the intensity overflows", source.file.place, i % width, i / width));
+  }
+  return map;
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::string& path, const Warn& warn) {
+  if (is_gltf(path)) return {load_gltf(path, warn), {}};
+  if (lower_suffix(path) != ".toml") throw UserError(path + ": is not a scene: a .glb, .gltf or .toml file is needed");
+
+  constexpr std::uint64_t largest = 1 << 20;
+  MemoryBudget budget(largest);
+  const auto bytes = with_place(path, [&] { return read_file(path, budget); });
+  const SceneToml toml = parse_scene_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
+  const fs::path folder = fs::path(path).parent_path();
+  if (!is_gltf(toml.scene.path)) throw UserError(toml.scene.place + ": [scene] file must be a .glb or .gltf file");
+
+  LoadedScene loaded{load_gltf(resolve(toml.scene, folder), warn), toml.settings};
+  if (toml.environment) loaded.scene.environment = read_environment(*toml.environment, folder);
+  return loaded;
+}
+
+}  // namespace isophote

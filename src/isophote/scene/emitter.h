@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "isophote/sampling/distribution.h"
+#include "isophote/scene/scene.h"
+#include "isophote/scene/surface.h"
+
+namespace isophote {
+
+/// A direction towards a light, from a point.
+struct LightSample {
+  Vec3 direction;
+  float distance = infinity;
+  Rgb radiance;   ///< that arrives, unoccluded; for a delta light: irradiance at normal incidence
+  float pdf = 0;  ///< solid angle, the chance of choosing this emitter included; for a delta light only that chance
+  bool delta = false;
+  bool sampled_directly = true;
+};
+
+/// All that emits, chosen in proportion to power: emissive triangles (textures averaged over them), punctual lights and
+/// the environment, which is split in two: peaks (sun-like texels) and the rest. Lamps, punctual lights and peaks are
+/// `sampled_directly`: their light scattered once is direct light. The rest of the environment is not: it is seen by
+/// gathers and cached. Never both. The rest is chosen with a chance of at most 1/2 beside others: power cannot know how
+/// much of the sky is hidden, and rays chosen by the BSDF find it too.
+class Emitters {
+ public:
+  /// What `sample` chooses among.
+  enum class Among : std::uint8_t { all, sampled_directly };
+
+  /// `scene` must outlive this.
+  explicit Emitters(const Scene& scene);
+
+  bool empty(Among among = Among::all) const;
+  /// One emitter and one direction towards it; pdf 0 where the emitter does not shine on `from` at all. `empty` must
+  /// not hold.
+  LightSample sample(const Vec3& from, float u_choice, Vec2 u, Among among = Among::all) const;
+  /// The density (solid angle) with which `sample` gives the direction in which the triangle of `hit` was met.
+  float triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direction, Among among = Among::all) const;
+  float environment_pdf(const Vec3& direction, Among among = Among::all) const;
+
+  struct Sky {
+    Rgb radiance;
+    bool sampled_directly = false;
+  };
+  Sky environment(const Vec3& direction) const;
+
+  /// Is `from` so near to an emissive triangle that light sampling alone would be noisy there, so that a ray chosen by
+  /// the BSDF should share the work? True at least wherever a cosine-distributed ray could meet an emitter with four
+  /// times the density of `sample(..., sampled_directly)`. False means: sampling lights has bounded variance and its
+  /// weight may be 1.
+  bool near(const Vec3& from) const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace isophote

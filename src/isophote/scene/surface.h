@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "isophote/core/ray.h"
+#include "isophote/scene/bsdf.h"
+#include "isophote/scene/scene.h"
+
+namespace isophote {
+
+/// Where a ray met a triangle.
+struct Hit {
+  std::uint32_t mesh = 0, triangle = 0;
+  float u = 0, v = 0;  ///< barycentric coordinates of the second and third vertex
+  float distance = infinity;
+};
+
+/// A point of a surface as light sees it. All normals are unit and on the side the ray came from.
+struct SurfacePoint {
+  Vec3 position;
+  Vec3 geometric_normal;
+  Vec3 shading_normal;  ///< interpolated, before the normal map: cached records live on it
+  Bsdf bsdf;            ///< bsdf.frame.n is the mapped normal
+  Rgb emission;         ///< radiance towards the ray's origin (0 on a side that does not emit)
+  Rgb attenuation;      ///< sigma_a (1/m) of the medium behind the surface, for solid glass
+  std::uint32_t mesh = 0, triangle = 0;
+  bool front = true;  ///< met on the side its winding faces
+};
+
+SurfacePoint surface_point(const Scene& scene, const Ray& ray, const Hit& hit);
+
+/// Opacity of the material at a hit: 0 or 1 for masks, coverage for blending.
+float opacity(const Scene& scene, const Hit& hit);
+
+/// Radiance that the material emits at a hit, whichever side it is seen from.
+Rgb emission(const Scene& scene, const Hit& hit);
+
+/// Where a ray that leaves `point` towards `direction` starts, off the surface on that side by a distance that scales
+/// with the scene, so that pictures do not depend on its units.
+Vec3 offset_origin(const SurfacePoint& point, const Vec3& direction, float scene_scale);
+
+}  // namespace isophote

@@ -1,0 +1,82 @@
+#include "isophote/trace/arrival.h"
+
+#include <algorithm>
+
+namespace isophote {
+namespace {
+
+/// Absorption along a segment that ended at `point`, `inside` being that of the medium the path last refracted into. A
+/// ray that began inside is known by meeting a solid's back.
+Rgb transmittance(const SurfacePoint& point, const Rgb& inside, float distance) {
+  const Rgb& sigma = point.front || is_black(point.attenuation) ? inside : point.attenuation;
+  return is_black(sigma) ? Rgb(1.0f) : exp(sigma * -distance);
+}
+
+/// Ends long specular chains without bias. False: the path ends here.
+bool survives(Rgb& throughput, int events, Sampler& sampler) {
+  constexpr int sure_events = 8;
+  if (events < sure_events) return true;
+  const float chance = std::min(0.95f, max_component(throughput));
+  if (!(sampler.next() < chance)) return false;
+  throughput = throughput / chance;
+  return true;
+}
+
+}  // namespace
+
+Arrival follow(const World& world, const Ray& start, int depth, Sampler& sampler, std::uint64_t& kind) {
+  Arrival arrival;
+  FirstPoint& first = arrival.first;
+  Ray ray = start;
+  Rgb inside;
+  for (;;) {
+    ++kind;
+    first.direction = ray.direction;
+    const bool straight = first.depth == 0;  // no specular event yet
+    Hit hit;
+    if (!world.rays.intersect(ray, sampler.next_bits(), hit)) {
+      const Emitters::Sky sky = world.emitters.environment(ray.direction);
+      (straight ? (sky.sampled_directly ? arrival.lamp : arrival.sky) : first.emission) +=
+          first.throughput * sky.radiance;
+      first.path_length = infinity;
+      return arrival;
+    }
+    const SurfacePoint point = surface_point(world.scene, ray, hit);
+    first.path_length += hit.distance;
+    first.throughput *= transmittance(point, inside, hit.distance);
+    if (straight) {
+      arrival.hit = hit;
+      first.first_distance = hit.distance;
+      first.first_normal = point.geometric_normal;
+      first.first_mesh = hit.mesh;
+    }
+    (straight ? arrival.lamp : first.emission) += first.throughput * point.emission;
+
+    const Vec3 wo = -ray.direction;
+    const float specular = point.bsdf.has_specular() ? lobe_chances(point.bsdf, wo).specular : 0;
+    const Vec2 u = specular > 0 ? sampler.next2() : Vec2{};
+    if (!(specular > 0 && u.x < specular)) {
+      first.throughput = first.throughput / (1 - specular);
+      first.point = point;
+      return arrival;
+    }
+    if (depth + first.depth >= world.max_depth) return arrival;
+    const BsdfSample next = sample_specular(point.bsdf, wo, u.y);
+    first.throughput *= next.weight / specular;
+    const bool crosses = dot(next.direction, point.geometric_normal) < 0;
+    if (is_black(first.throughput) || crosses != next.transmitted) return arrival;
+    if (next.transmitted && point.bsdf.solid) inside = point.front ? point.attenuation : Rgb{};
+    ++first.depth;
+    if (!survives(first.throughput, first.depth, sampler)) return arrival;
+    ray = {offset_origin(point, next.direction, world.rays.scene_scale()), next.direction};
+  }
+}
+
+FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind) {
+  Arrival arrival = follow(world, ray, 0, sampler, kind);
+  arrival.first.emission += arrival.sky;
+  if (see_lamps) arrival.first.emission += arrival.lamp;
+  return arrival.first;
+}
+
+}  // namespace isophote

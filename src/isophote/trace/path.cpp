@@ -1,0 +1,253 @@
+#include "isophote/trace/path.h"
+
+#include <algorithm>
+
+#include "isophote/sampling/warp.h"
+#include "isophote/trace/arrival.h"
+
+namespace isophote {
+namespace {
+
+/// The power heuristic (exponent 2) [Veach 1997]: weight of the technique of density `mine`.
+float mis_weight(float mine, float other) {
+  const float ratio = other / mine;
+  return 1 / (1 + ratio * ratio);
+}
+
+/// The lobes that `follow` leaves to a point: diffuse and glossy, and the chances with which one is chosen.
+struct Lobes {
+  Rgb diffuse_albedo;
+  float diffuse = 0, glossy = 0;
+
+  Lobes(const Bsdf& bsdf, const Vec3& wo) {
+    const LobeChances chances = lobe_chances(bsdf, wo);
+    const float sum = chances.diffuse + chances.glossy;
+    if (!(sum > 0)) return;
+    diffuse = chances.diffuse / sum, glossy = chances.glossy / sum;
+    diffuse_albedo = isophote::diffuse_albedo(bsdf, wo);
+  }
+  bool black() const { return !(diffuse + glossy > 0); }
+};
+
+/// Incident light leaks where the mapped and the geometric normal disagree about its side: such directions scatter
+/// nothing.
+bool scatters_from(const SurfacePoint& point, const Vec3& wi) {
+  return dot(wi, point.bsdf.frame.n) > 0 && dot(wi, point.geometric_normal) > 0;
+}
+
+bool visible(const World& world, const SurfacePoint& point, const LightSample& light, std::uint32_t seed,
+             RayCounts& counts) {
+  ++counts.shadow;
+  Ray ray{offset_origin(point, light.direction, world.rays.scene_scale()), light.direction};
+  if (light.distance < infinity) {
+    // Aimed anew from the offset origin, and ended short of the emitter, which would else hide itself.
+    const Vec3 to = point.position + light.direction * light.distance - ray.origin;
+    const float distance = length(to);
+    if (!(distance > 0)) return true;
+    ray.direction = to / distance;
+    ray.far = distance * (1 - 0x1p-12f);
+  }
+  return !world.rays.occluded(ray, seed);
+}
+
+/// One light sample at a point: what it sends there if nothing hides it, over its density.
+struct Incident {
+  Vec3 direction;
+  Rgb radiance;
+  float pdf = 0;  ///< to be weighed against a BSDF ray's; 0: none can find this light
+  bool sampled_directly = true;
+};
+
+/// No direction where nothing arrives. `scattered` of the incident light decides whether a shadow ray is worth it.
+template <class Scatter>
+bool sample_light(const World& world, const SurfacePoint& point, float u_choice, Vec2 u, std::uint32_t seed,
+                  Emitters::Among among, RayCounts& counts, Incident& incident, const Scatter& scattered) {
+  if (world.emitters.empty(among)) return false;
+  const LightSample light = world.emitters.sample(point.position, u_choice, u, among);
+  if (!(light.pdf > 0) || is_black(light.radiance) || !scatters_from(point, light.direction)) return false;
+  incident = {light.direction, light.radiance / light.pdf, light.delta ? 0.0f : light.pdf, light.sampled_directly};
+  return scattered(incident) && visible(world, point, light, seed, counts);
+}
+
+/// The density with which light sampling would have taken the direction of a ray that brought `arrival`.
+float light_pdf(const World& world, const SurfacePoint& from, const Vec3& direction, const Arrival& arrival,
+                Emitters::Among among) {
+  if (arrival.hit.distance == infinity) return world.emitters.environment_pdf(direction, among);
+  return world.emitters.triangle_pdf(arrival.hit, from.position, direction, among);
+}
+
+BsdfSample sample_diffuse(const Bsdf& bsdf, const Rgb& albedo, Vec2 u) {
+  const Vec3 local = cosine_hemisphere(u);
+  return {bsdf.frame.to_world(local), albedo, cosine_hemisphere_pdf(local.z), false};
+}
+
+bool usable(const SurfacePoint& point, const BsdfSample& sample) {
+  return sample.pdf > 0 && !is_black(sample.weight) && scatters_from(point, sample.direction);
+}
+
+/// One scattering event of a path: light sampled here, and the ray by which more is gathered.
+struct Event {
+  Rgb direct, rest;             ///< scattered here: light of directly sampled emitters, of the environment's rest
+  Rgb rest_irradiance;          ///< of the latter on the diffuse lobe's hemisphere
+  Rgb weight;                   ///< of what `next` brings; black: there is no ray
+  float irradiance_weight = 0;  ///< the same for irradiance: pi over the chance where the diffuse lobe was chosen
+  Arrival next;
+};
+
+/// Light sampling for both lobes. Each lobe by itself is shared by MIS with its ray, whose density is chance * pdf.
+void add_light(const World& world, const SurfacePoint& point, const Vec3& wo, const Lobes& lobes, float u_choice,
+               Vec2 u, std::uint32_t seed, RayCounts& counts, Event& event) {
+  const Bsdf& bsdf = point.bsdf;
+  Incident incident;
+  Rgb scattered;
+  float irradiance = 0;
+  const auto scatter_it = [&](const Incident& light) {
+    const float cosine = dot(light.direction, bsdf.frame.n);
+    if (lobes.diffuse > 0) {
+      const float weight = light.pdf > 0 ? mis_weight(light.pdf, lobes.diffuse * cosine_hemisphere_pdf(cosine)) : 1.0f;
+      irradiance = cosine * weight;
+      scattered = lobes.diffuse_albedo * (irradiance / pi);
+    }
+    if (lobes.glossy > 0) {
+      const float weight =
+          light.pdf > 0 ? mis_weight(light.pdf, lobes.glossy * glossy_pdf(bsdf, wo, light.direction)) : 1.0f;
+      scattered += evaluate_glossy(bsdf, wo, light.direction) * weight;
+    }
+    return !is_black(scattered);
+  };
+  if (!sample_light(world, point, u_choice, u, seed, Emitters::Among::all, counts, incident, scatter_it)) return;
+  (incident.sampled_directly ? event.direct : event.rest) += scattered * incident.radiance;
+  if (!incident.sampled_directly) event.rest_irradiance += incident.radiance * irradiance;
+}
+
+Event scatter_once(const World& world, const SurfacePoint& point, const Vec3& wo, int depth, Sampler& sampler,
+                   RayCounts& counts) {
+  Event event;
+  const Lobes lobes(point.bsdf, wo);
+  if (lobes.black() || depth >= world.max_depth) return event;
+  const Vec2 choice = sampler.next2(), u_light = sampler.next2(), u_ray = sampler.next2();
+  add_light(world, point, wo, lobes, choice.x, u_light, sampler.next_bits(), counts, event);
+
+  const bool diffuse = choice.y < lobes.diffuse;
+  const float chance = diffuse ? lobes.diffuse : lobes.glossy;
+  const BsdfSample sample =
+      diffuse ? sample_diffuse(point.bsdf, lobes.diffuse_albedo, u_ray) : sample_glossy(point.bsdf, wo, u_ray);
+  if (!usable(point, sample)) return event;
+  const Ray ray{offset_origin(point, sample.direction, world.rays.scene_scale()), sample.direction};
+  event.next = follow(world, ray, depth + 1, sampler, counts.path);
+  event.weight = sample.weight / chance;
+  event.irradiance_weight = diffuse ? pi / chance : 0.0f;
+  const Arrival& next = event.next;
+  if (is_black(next.lamp) && is_black(next.sky)) return event;
+  const float mis =
+      mis_weight(chance * sample.pdf, light_pdf(world, point, sample.direction, next, Emitters::Among::all));
+  event.direct += event.weight * next.lamp * mis;
+  event.rest += event.weight * next.sky * mis;
+  event.rest_irradiance += next.sky * (event.irradiance_weight * mis);
+  return event;
+}
+
+/// Radiance that `arrival` brings but for what its first segment met: light after specular events, and a path from its
+/// point.
+Rgb trace_on(const World& world, Arrival arrival, int depth, Sampler& sampler, RayCounts& counts) {
+  constexpr int sure_events = 3;
+  Rgb radiance = arrival.first.emission, throughput = arrival.first.throughput;
+  for (int events = 1; arrival.first.point && !is_black(throughput); ++events) {
+    depth += arrival.first.depth;
+    if (events > sure_events) {
+      const float chance = std::min(0.95f, max_component(throughput));
+      if (!(sampler.next() < chance)) break;
+      throughput = throughput / chance;
+    }
+    Event event = scatter_once(world, *arrival.first.point, -arrival.first.direction, depth++, sampler, counts);
+    radiance += throughput * (event.direct + event.rest + event.weight * event.next.first.emission);
+    throughput *= event.weight * event.next.first.throughput;
+    arrival = std::move(event.next);
+  }
+  return radiance;
+}
+
+}  // namespace
+
+RayCounts& RayCounts::operator+=(const RayCounts& o) {
+  camera += o.camera, path += o.path, shadow += o.shadow, gather += o.gather, check += o.check;
+  return *this;
+}
+
+Scattered scatter(const World& world, const SurfacePoint& point, const Vec3& wo, int depth, Sampler& sampler,
+                  RayCounts& counts) {
+  const Event event = scatter_once(world, point, wo, depth, sampler, counts);
+  Scattered out{event.direct, event.rest, event.rest_irradiance};
+  if (is_black(event.weight)) return out;
+  const Rgb incoming = trace_on(world, event.next, depth + 1, sampler, counts);
+  out.indirect += event.weight * incoming;
+  out.irradiance += incoming * event.irradiance_weight;
+  return out;
+}
+
+Rgb direct_diffuse(const World& world, const SurfacePoint& point, const Vec3& wo, Sampler& sampler, RayCounts& counts) {
+  constexpr auto among = Emitters::Among::sampled_directly;
+  const float u_choice = sampler.next();
+  const Vec2 u_light = sampler.next2(), u_ray = sampler.next2();
+  const std::uint32_t seed = sampler.next_bits();
+  const Rgb albedo = diffuse_albedo(point.bsdf, wo);
+  if (is_black(albedo) || world.max_depth < 1) return {};
+  const bool shared = world.emitters.near(point.position);
+  const auto cosine = [&](const Vec3& wi) { return dot(wi, point.bsdf.frame.n); };
+
+  Rgb irradiance;
+  Incident incident;
+  if (sample_light(world, point, u_choice, u_light, seed, among, counts, incident,
+                   [](const Incident&) { return true; })) {
+    const float c = cosine(incident.direction);
+    const float mis = shared && incident.pdf > 0 ? mis_weight(incident.pdf, cosine_hemisphere_pdf(c)) : 1.0f;
+    irradiance += incident.radiance * (c * mis);
+  }
+  const BsdfSample sample = sample_diffuse(point.bsdf, albedo, u_ray);
+  if (shared && usable(point, sample)) {
+    const Ray ray{offset_origin(point, sample.direction, world.rays.scene_scale()), sample.direction};
+    Arrival arrival;
+    ++counts.path;
+    if (world.rays.intersect(ray, seed, arrival.hit))
+      arrival.lamp = surface_point(world.scene, ray, arrival.hit).emission;
+    else if (const Emitters::Sky sky = world.emitters.environment(sample.direction); sky.sampled_directly)
+      arrival.lamp = sky.radiance;
+    if (!is_black(arrival.lamp))
+      irradiance +=
+          arrival.lamp * (pi * mis_weight(sample.pdf, light_pdf(world, point, sample.direction, arrival, among)));
+  }
+  return albedo * irradiance * (1 / pi);
+}
+
+GlossyRay glossy_ray(const World& world, const SurfacePoint& point, const Vec3& wo, Sampler& sampler,
+                     RayCounts& counts) {
+  constexpr auto among = Emitters::Among::sampled_directly;
+  GlossyRay out;
+  const float u_choice = sampler.next();
+  const Vec2 u_light = sampler.next2(), u_ray = sampler.next2();
+  if (!point.bsdf.has_glossy()) return out;
+
+  Incident incident;
+  Rgb scattered;
+  const auto scatter_it = [&](const Incident& light) {
+    scattered = evaluate_glossy(point.bsdf, wo, light.direction);
+    if (light.pdf > 0) scattered *= mis_weight(light.pdf, glossy_pdf(point.bsdf, wo, light.direction));
+    return !is_black(scattered);
+  };
+  if (sample_light(world, point, u_choice, u_light, sampler.next_bits(), among, counts, incident, scatter_it))
+    out.direct += scattered * incident.radiance;
+
+  const BsdfSample sample = sample_glossy(point.bsdf, wo, u_ray);
+  if (!usable(point, sample)) return out;
+  const Ray ray{offset_origin(point, sample.direction, world.rays.scene_scale()), sample.direction};
+  Arrival arrival = follow(world, ray, 1, sampler, counts.path);
+  out.weight = sample.weight;
+  if (!is_black(arrival.lamp))
+    out.direct += sample.weight * arrival.lamp *
+                  mis_weight(sample.pdf, light_pdf(world, point, sample.direction, arrival, among));
+  out.next = arrival.first;
+  out.next.emission += arrival.sky;
+  return out;
+}
+
+}  // namespace isophote

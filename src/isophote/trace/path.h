@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "isophote/sampling/sampler.h"
+#include "isophote/scene/emitter.h"
+#include "isophote/trace/ray_caster.h"
+
+namespace isophote {
+
+/// What light transport runs on. A plain view; copy it freely.
+struct World {
+  const Scene& scene;
+  const RayCaster& rays;
+  const Emitters& emitters;
+  int max_depth = std::numeric_limits<int>::max();  ///< scattering events after the camera; 1: direct light only
+};
+
+/// Rays cast, by purpose. Each worker counts for itself.
+struct RayCounts {
+  std::uint64_t camera = 0, path = 0, shadow = 0, gather = 0, check = 0;
+  std::uint64_t total() const { return camera + path + shadow + gather + check; }
+  RayCounts& operator+=(const RayCounts& o);
+};
+
+/// The first point that scatters other than specularly, along a ray through mirrors and glass.
+struct FirstPoint {
+  std::optional<SurfacePoint> point;  ///< none: the ray left the scene, died or met only specular surfaces
+  Rgb emission;           ///< radiance emitted towards the ray's origin along the way and at the point, tinted
+  Rgb throughput{1.0f};   ///< of the specular surfaces before the point
+  Vec3 direction;         ///< of the last segment
+  float path_length = 0;  ///< from the origin, over all segments
+  float first_distance = infinity;  ///< to the very first hit, of any kind; infinity: the sky
+  Vec3 first_normal;                ///< geometric normal there, towards the ray
+  std::uint32_t first_mesh = 0;
+  int depth = 0;  ///< specular events on the way
+};
+
+/// Follows `ray` to its first non-specular point. `emission` counts directly sampled emitters (lamps, the environment's
+/// peaks) met before any specular event only where `see_lamps`; whatever is met after one counts always (no light
+/// sample could have found it). `kind` is the counter to charge.
+FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind);
+
+/// Light scattered at a point towards `wo`, split as the project defines it: `direct` from directly sampled emitters
+/// scattered once here, `indirect` everything else. `irradiance` is the indirect irradiance on the diffuse lobe's
+/// hemisphere (about the mapped normal), of which diffuse_albedo / pi is part of `indirect`.
+struct Scattered {
+  Rgb direct, indirect, irradiance;
+};
+
+/// One-path estimate by next-event estimation, multiple importance sampling and Russian roulette, unbiased.
+/// `depth` is the number of scattering events before this one.
+Scattered scatter(const World& world, const SurfacePoint& point, const Vec3& wo, int depth, Sampler& sampler,
+                  RayCounts& counts);
+
+/// The `direct` part of the diffuse lobe alone: radiance towards `wo`.
+Rgb direct_diffuse(const World& world, const SurfacePoint& point, const Vec3& wo, Sampler& sampler, RayCounts& counts);
+
+/// One ray of the glossy lobe. `direct`: the glossy lobe's light from directly sampled emitters (light sampling and
+/// this ray share by MIS). `next` is where the ray goes on, with `next.emission` free of what `direct` holds; indirect
+/// light of the lobe is weight * (next.emission + next.throughput * radiance scattered at next.point).
+struct GlossyRay {
+  Rgb direct;
+  Rgb weight;
+  FirstPoint next;
+};
+GlossyRay glossy_ray(const World& world, const SurfacePoint& point, const Vec3& wo, Sampler& sampler,
+                     RayCounts& counts);
+
+}  // namespace isophote

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "isophote/core/rgb.h"
+#include "isophote/derivatives/jet.h"
+#include "isophote/validity/footprint.h"
+
+namespace isophote {
+
+/// A place at which the illumination is known, with its derivatives and the region where they may be used. What a lookup
+/// reads first comes first.
+struct Record {
+  Vec3 position;
+  Vec3 normal;  ///< unit
+  Footprint footprint;
+  float gradient_scale = 1;  ///< what the limit on extrapolation leaves of the translational gradient
+  Jet<Rgb> jet;              ///< irradiance
+
+  /// The value extrapolated to position + d and, to first order, from `normal` to the unit vector n. Never negative.
+  Rgb extrapolate(const Vec3& d, const Vec3& n) const {
+    if (footprint.order == 0) return jet.value;
+    return max(jet.value + jet.translational.dot(d) * gradient_scale + jet.rotational.dot(cross(normal, n)), Rgb{});
+  }
+};
+
+}  // namespace isophote

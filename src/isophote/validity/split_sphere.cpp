@@ -1,0 +1,17 @@
+#include "isophote/validity/split_sphere.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace isophote {
+
+float split_sphere_radius(float harmonic_mean, float a) { return harmonic_mean * a * (std::numbers::pi_v<float> / 4); }
+
+Footprint split_sphere(const Jet<Rgb>& jet, const View& view, float a) {
+  const float r = std::min(jet.distances.harmonic_mean, view.scene_scale);
+  Footprint footprint = Footprint::disk(split_sphere_radius(r, a), 1 / a);
+  footprint.unscaled = r;
+  return footprint;
+}
+
+}  // namespace isophote

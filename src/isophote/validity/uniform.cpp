@@ -1,0 +1,12 @@
+#include "isophote/validity/uniform.h"
+
+namespace isophote {
+
+Footprint uniform(const View& view, float a) {
+  Footprint footprint = Footprint::disk(0.1f * a * view.scene_scale, 1 / a);
+  footprint.unscaled = footprint.radius;
+  footprint.falloff = Falloff::tent;
+  return footprint;
+}
+
+}  // namespace isophote

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "isophote/validity/footprint.h"
+
+namespace isophote {
+
+/// The control in every comparison: one radius everywhere, `a` times a tenth of the scene's diagonal.
+Footprint uniform(const View& view, float a);
+
+}  // namespace isophote
