@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <functional>
 
 #include "support/analytic_room.h"
@@ -71,6 +72,30 @@ Vec3d rotational(const HemisphereGather& g) {
 }
 Vec3d rotational_classical(const HemisphereGather& g) {
   return channel(ward_heckbert_1992(g, RotationWeights::classical).rotational);
+}
+
+// Unbiased, and stratification makes the error fall faster than the cells' size (random directions: like its root).
+TEST(WardHeckbert, IrradianceIsUnbiasedAndStratified) {
+  std::printf("irradiance, rms error in %%, 16x50 and 32x100\n");
+  const AnalyticRoom room(Walls::smooth, true);
+  for (const FloorPoint& p : {floor_points[0], floor_points[1]}) {
+    double rms[2];
+    for (const int size : {0, 1}) {
+      constexpr int seeds = 96;
+      const double truth = room.irradiance(p.x, p.y);
+      double sum = 0, squares = 0;
+      for (int seed = 0; seed < seeds; ++seed) {
+        const Strata strata{16 << size, 50 << size};
+        const double error = irradiance(gather_floor(room, p.x, p.y, strata, seed)).value.r / truth - 1;
+        sum += error, squares += error * error;
+      }
+      rms[size] = std::sqrt(squares / seeds);
+      EXPECT_NEAR(sum / seeds, 0, 4 * rms[size] / std::sqrt(seeds)) << p.name;
+    }
+    std::printf("  %s %5.2f %5.2f\n", p.name, 100 * rms[0], 100 * rms[1]);
+    EXPECT_LT(rms[0], 0.012) << p.name;
+    EXPECT_GT(std::log2(rms[0] / rms[1]), 1.2) << p.name;
+  }
 }
 
 // The error halves with the size of a cell. The bounds are errors measured with another program and other random

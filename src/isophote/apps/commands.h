@@ -20,7 +20,7 @@ struct RenderRequest {
 };
 
 struct CompareRequest {
-  std::string image, reference, layer = "", error_picture;
+  std::string image, reference, second, layer, error_picture;
   bool json = false;
   double fail_above = -1;  ///< relative RMSE; negative: never
   int block = 1;           ///< average both over blocks of this size first

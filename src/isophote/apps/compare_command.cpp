@@ -21,7 +21,8 @@ RgbImage read_layer(const std::string& path, const std::string& layer, int block
 int compare(const CompareRequest& request) {
   const RgbImage image = read_layer(request.image, request.layer, request.block);
   const RgbImage reference = read_layer(request.reference, request.layer, request.block);
-  const Difference d = isophote::compare(image, reference);
+  const RgbImage second = request.second.empty() ? reference : read_layer(request.second, request.layer, request.block);
+  const Difference d = isophote::compare(image, reference, second);
   if (!request.error_picture.empty()) write_png(request.error_picture, error_picture(image, reference, 0.2f), 0);
   if (request.json) {
     const nlohmann::ordered_json json = {{"rmse", d.rmse},         {"relative_rmse", d.relative_rmse},

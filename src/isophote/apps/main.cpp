@@ -36,6 +36,7 @@ void add_compare(CLI::App& program, app::CompareRequest& request) {
   CLI::App* verb = program.add_subcommand("compare", "Measure how a picture differs from a reference");
   verb->add_option("image", request.image, "EXR picture")->required();
   verb->add_option("reference", request.reference, "EXR reference")->required();
+  verb->add_option("--second", request.second, "an independent second reference: the noise of both cancels")->type_name("FILE");
   verb->add_option("--layer", request.layer, "layer of both, such as irradiance (default: the colours)");
   verb->add_option("--block", request.block, "average over blocks of N x N pixels first")->check(CLI::Range(1, 4096));
   verb->add_option("--error-picture", request.error_picture, "write a PNG: blue too dark, red too bright")->type_name("FILE");

@@ -11,6 +11,7 @@ std::string bounds_text(const RadiusBounds& b) {
   const auto add = [&](const std::string& s) { text += (text.empty() ? "" : ", ") + s; };
   if (b.min_pixels > 0) add(fmt::format("at least {:g} px", b.min_pixels));
   if (b.max_pixels < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} px", b.max_pixels));
+  if (b.min_view > 0) add(fmt::format("at least {:g} a heights", b.min_view));
   if (b.gradient) add("gradient");
   if (b.neighbours) add("neighbours");
   return text.empty() ? "none" : text;

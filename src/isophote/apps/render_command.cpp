@@ -7,12 +7,14 @@
 #include "isophote/apps/statistics.h"
 #include "isophote/apps/threads.h"
 #include "isophote/cache/record_file.h"
+#include "isophote/core/atomic_file.h"
 #include "isophote/core/error.h"
 #include "isophote/image/png.h"
 #include "isophote/integrate/record_picture.h"
 #include "isophote/integrate/render.h"
 #include "isophote/integrate/scene_hash.h"
 #include "isophote/integrate/solve_records.h"
+#include "isophote/load/memory_budget.h"
 #include "isophote/load/scene_file.h"
 
 namespace isophote::app {
@@ -49,12 +51,33 @@ RenderSettings merged_settings(const RenderRequest& request, const std::vector<S
   return settings;
 }
 
+/// What the chosen way of rendering cannot do is refused, not left undone.
+void check_against_method(const RenderRequest& request, const RenderSettings& settings, const Method& method) {
+  if (!method.caches() && !(request.save_cache.empty() && request.load_cache.empty() && request.records_picture.empty()))
+    throw UsageError("method 'path' caches nothing: it takes no --save-cache, --load-cache or --show-records");
+  if (settings.records && (settings.lazy || !request.load_cache.empty()))
+    throw UsageError("--records builds caches in rounds and from nothing: it takes no --order lazy or --load-cache");
+}
+
+/// A file that cannot be written is found out before the work, not after it.
+void check_outputs(const RenderRequest& request) {
+  for (const std::string& output : request.outputs) AtomicFile{output};
+  for (const std::string& output : {request.stats, request.preview, request.records_picture, request.save_cache})
+    if (!output.empty()) AtomicFile{output};
+}
+
+/// Refuses pictures that do not fit in memory: the film, and as much again for the layers made of it.
+void check_size(int width, int height) {
+  const std::uint64_t bytes = 2 * sizeof(PixelSample) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  MemoryBudget(physical_memory()).take(bytes, fmt::format("a picture of {} x {} pixels", width, height));
+}
+
 /// What shapes records, for the record file. The view and the seed do not matter: records of another view or seed serve as well.
 std::string record_settings(const Job& job) {
   const RadiusBounds& b = job.method.settings.bounds;
-  return fmt::format("estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-radius={}\nmax-radius={}\n"
+  return fmt::format("estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmin-radius={}\nmax-radius={}\n"
                      "bound-gradient={}\nbound-neighbours={}\ngather={}x{}\nsecondary={}\nmax-depth={}\n",
-                     job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels,
+                     job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels, b.min_view,
                      b.min_length, b.max_length, b.gradient, b.neighbours, job.strata.polar, job.strata.azimuthal,
                      job.method.secondary, job.world.max_depth);
 }
@@ -64,11 +87,13 @@ class Rendering {
  public:
   explicit Rendering(const RenderRequest& request)
       : request_(request), threads_(request.threads), display_(request.progress), start_(Clock::now()) {
-    // What the flags say wrongly is said before the scene is read.
-    chosen_method(merged_settings(request, {}));
+    // What the flags say wrongly is said before the scene is read; a scene file may yet complete a combination.
+    const RenderSettings flags = merged_settings(request, {});
+    if (!ends_with(request.scene, ".toml")) check_against_method(request, flags, chosen_method(flags));
   }
 
   int run() {
+    check_outputs(request_);
     load();
     Film film(job_->width, job_->height);
     if (job_->method.caches()) render_cached(film);
@@ -88,6 +113,7 @@ class Rendering {
     });
     settings_ = merged_settings(request_, loaded_.settings);
     const Method method = chosen_method(settings_);
+    check_against_method(request_, settings_, method);
     const Camera camera = chosen_camera(settings_, loaded_.scene);
     rays_.emplace(loaded_.scene);
     emitters_.emplace(loaded_.scene);
@@ -95,6 +121,7 @@ class Rendering {
     Job& job = *job_;
     job.height = settings_.height.value_or(512);
     job.width = settings_.width.value_or(std::clamp(static_cast<int>(std::lround(512 * (camera.aspect > 0 ? camera.aspect : 1))), 1, 32768));
+    check_size(job.width, job.height);
     job.samples = settings_.samples;
     job.seed = settings_.seed;
     job.method = method;

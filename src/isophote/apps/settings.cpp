@@ -70,6 +70,8 @@ constexpr Option table[] = {
      }},
     {"method", "min-pixels", "N", "lower bound of radii, in pixels", [](S& s, T t) { s.min_pixels = number<float>(t, 0, 1e6); }},
     {"method", "max-pixels", "N", "upper bound of radii, in pixels", [](S& s, T t) { s.max_pixels = number<float>(t, 0, 1e6); }},
+    {"method", "min-view", "H", "lower bound of radii, in heights of the picture, times the threshold a",
+     [](S& s, T t) { s.min_view = number<float>(t, 0, 1e6); }},
     {"method", "min-radius", "R", "lower bound of radii, in scene units", [](S& s, T t) { s.min_radius = number<float>(t, 0, 1e30); }},
     {"method", "max-radius", "R", "upper bound of radii, in scene units", [](S& s, T t) { s.max_radius = number<float>(t, 0, 1e30); }},
     {"method", "bound-gradient", "on|off", "bound radii by the relative gradient", [](S& s, T t) { s.bound_gradient = on_off(t); }},
@@ -120,6 +122,7 @@ Method chosen_method(const RenderSettings& s) {
   RadiusBounds& bounds = method.settings.bounds;
   bounds.min_pixels = s.min_pixels.value_or(bounds.min_pixels);
   bounds.max_pixels = s.max_pixels.value_or(bounds.max_pixels);
+  bounds.min_view = s.min_view.value_or(bounds.min_view);
   bounds.min_length = s.min_radius.value_or(bounds.min_length);
   bounds.max_length = s.max_radius.value_or(bounds.max_length);
   bounds.gradient = s.bound_gradient.value_or(bounds.gradient);
@@ -140,7 +143,11 @@ Camera chosen_camera(const RenderSettings& s, const Scene& scene) {
     std::getline(in, eye, ';'), std::getline(in, target, ';'), std::getline(in, fov);
     const Vec3 from = point(eye), to = point(target);
     if (from == to) throw UsageError("--camera: eye and target are the same point");
-    return Camera::look_at(from, to, number<float>(fov, 0.01, 179) * pi / 180);
+    try {
+      return Camera::look_at(from, to, number<float>(fov, 0.01, 179) * pi / 180);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("--camera: field of view: {}", error.what()));
+    }
   }
   std::string known;
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {

@@ -22,7 +22,7 @@ struct RenderSettings {
   std::optional<int> max_depth, records;
   std::optional<bool> secondary;
   bool lazy = false;
-  std::optional<float> min_pixels, max_pixels, min_radius, max_radius;
+  std::optional<float> min_pixels, max_pixels, min_view, min_radius, max_radius;
   std::optional<bool> bound_gradient, bound_neighbours;
   std::uint64_t seed = 0;
   std::optional<float> exposure;  ///< stops; none: chosen from the picture

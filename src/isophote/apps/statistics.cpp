@@ -63,6 +63,8 @@ void Statistics::write_json(const std::string& path) const {
   if (error.points > 0)
     json["error"] = {{"asked", error_asked}, {"mean", error.mean}, {"median", error.median}, {"p95", error.p95},
                      {"bias", error.bias},   {"noise", error.noise}, {"points", error.points}};
+  else if (!estimator.empty())
+    json["error"] = {{"asked", error_asked}, {"points", 0}};
   AtomicFile file(path);
   file.stream() << json.dump(2) << "\n";
   file.commit();

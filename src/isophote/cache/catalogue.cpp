@@ -2,6 +2,7 @@
 
 #include "isophote/core/error.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
+#include "isophote/validity/limit_gradient.h"
 #include "isophote/validity/split_sphere.h"
 #include "isophote/validity/uniform.h"
 
@@ -17,17 +18,21 @@ constexpr Estimator estimator_table[] = {
 };
 
 constexpr Metric metric_table[] = {
-    {"split-sphere", "[Ward, Rubinstein, Clear 1988]", false, 2.0f,
-     [](const Jet<Rgb>& jet, const View& view, const MetricSettings& s) { return split_sphere(jet, view, s.a); }, nullptr},
-    {"bounded-split-sphere", "[Krivanek 2006]", true, 2.0f,
+    {"split-sphere", "[Ward, Rubinstein, Clear 1988]", false, 1.4f,
+     [](const Jet<Rgb>& jet, const View& view, const MetricSettings& s) { return split_sphere(jet, view, s.a); },
+     nullptr},
+    {"bounded-split-sphere", "[Krivanek 2006]", true, 1.4f,
      [](const Jet<Rgb>& jet, const View& view, const MetricSettings& s) {
        return bounded_split_sphere(jet, view, s.a, s.bounds);
      },
      [](std::span<Record> records, std::span<const std::uint32_t> fresh, const MetricSettings& s) {
        settle_bounded(records, fresh, s.a, s.bounds);
      }},
-    {"uniform", "", false, 2.0f,
-     [](const Jet<Rgb>&, const View& view, const MetricSettings& s) { return uniform(view, s.a); }, nullptr},
+    {"uniform", "", false, 1.4f,
+     [](const Jet<Rgb>&, const View& view, const MetricSettings& s) { return uniform(view, s.a); },
+     [](std::span<Record> records, std::span<const std::uint32_t> fresh, const MetricSettings&) {
+       for (const std::uint32_t i : fresh) limit_gradient(records[i], records[i].footprint.radius);
+     }},
 };
 
 constexpr const Estimator& no_gradients = estimator_table[0];
@@ -38,15 +43,20 @@ constexpr const Metric& bounded = metric_table[1];
 constexpr const Metric& one_radius = metric_table[2];
 
 const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = true};
-const RadiusBounds cached_preset{.min_pixels = 1.5f, .neighbours = true};
+const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.15f, .neighbours = true};
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.
 const Method method_table[] = {
     {"path", "[Veach, Guibas 1995]", "path tracing: the unbiased reference", nullptr, nullptr, {}, false},
     {"ward1988", "[Ward, Rubinstein, Clear 1988]", "split sphere, values alone", &no_gradients, &split, {}, false},
     {"ward1992", "[Ward, Heckbert 1992]", "split sphere, gradients", &classical, &split, {}, false},
-    {"bounded", "[Tabellion, Lamorlette 2004] [Krivanek 2006]", "split sphere within bounds", &exact, &bounded,
-     {.a = 0.2f, .bounds = bounded_preset}, false},
+    {"bounded",
+     "[Tabellion, Lamorlette 2004] [Krivanek 2006]",
+     "split sphere within bounds",
+     &exact,
+     &bounded,
+     {.a = 0.2f, .bounds = bounded_preset},
+     false},
     {"uniform", "", "one radius everywhere: the control", &exact, &one_radius, {}, false},
     {"cached", "", "the best combination there is here", &exact, &bounded, {.a = 0.2f, .bounds = cached_preset}, true},
 };
@@ -87,7 +97,10 @@ const Metric& find_metric(std::string_view name) { return find(metric_table, nam
 
 void check_combination(const Method& method) {
   if (!method.caches()) return;
-  const auto pair = [&] { return "metric '" + std::string(method.metric->name) + "' and estimator '" + std::string(method.estimator->name) + "': "; };
+  const auto pair = [&] {
+    return "metric '" + std::string(method.metric->name) + "' and estimator '" + std::string(method.estimator->name) +
+           "': ";
+  };
   if (method.settings.bounds.gradient && !method.estimator->gradients)
     throw UsageError(pair() + "the bound by the gradient needs a gradient, which this estimator does not give");
   if (!method.metric->bounded && method.settings.bounds != RadiusBounds{})

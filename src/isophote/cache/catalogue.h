@@ -25,8 +25,8 @@ struct Estimator {
 /// A metric of `validity/`: how far that can be trusted, and what records do to each other.
 struct Metric {
   std::string_view name, paper;
-  bool bounded;           ///< heeds MetricSettings::bounds
-  float a_per_root_error; ///< a = this * sqrt(wanted error), measured once over the project's scenes
+  bool bounded;            ///< heeds MetricSettings::bounds
+  float a_per_root_error;  ///< a = this * sqrt(wanted error), measured once over the project's scenes
   Footprint (*measure)(const Jet<Rgb>&, const View&, const MetricSettings&);
   void (*settle)(std::span<Record>, std::span<const std::uint32_t> fresh, const MetricSettings&);  ///< null: nothing
 };
@@ -54,8 +54,8 @@ Method find_method(std::string_view name);
 const Estimator& find_estimator(std::string_view name);
 const Metric& find_metric(std::string_view name);
 
-/// Throws UsageError, naming both sides, where the metric or its bounds need what the estimator does not give, or where bounds
-/// are set that the metric does not heed. Called before any ray is shot.
+/// Throws UsageError, naming both sides, where the metric or its bounds need what the estimator does not give, or where
+/// bounds are set that the metric does not heed. Called before any ray is shot.
 void check_combination(const Method& method);
 
 }  // namespace isophote

@@ -6,10 +6,15 @@ namespace {
 /// No cell is smaller than the root's size over 2^21: below that, floats no longer tell cells apart.
 constexpr float smallest_cell = 0x1p-21f;
 
-bool touches(const Vec3& cell, float half, const Vec3& center, float radius) {
-  const auto outside = [half](float d) { return std::max(0.0f, std::abs(d) - half); };
-  const Vec3 gap{outside(center.x - cell.x), outside(center.y - cell.y), outside(center.z - cell.z)};
-  return length_squared(gap) <= radius * radius;
+/// Could a query for a point of the sphere take this octant? Asked with the query's own comparisons, and rounding is
+/// monotonic, so that no point is lost between cells or outside the bounds.
+bool reaches(const Vec3& node_center, int octant, const Vec3& center, float radius) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool upper = octant >> axis & 1;
+    if (upper ? !(center[axis] + radius > node_center[axis]) : !(center[axis] - radius <= node_center[axis]))
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -19,7 +24,9 @@ Octree::Octree(const Box& bounds)
       half_(bounds.empty() ? 1.0f : std::max(max_component(bounds.size()) * 0.5f, 1e-30f)),
       nodes_(1) {}
 
-void Octree::insert(std::uint32_t id, const Vec3& center, float radius) { insert(0, center_, half_, id, center, radius); }
+void Octree::insert(std::uint32_t id, const Vec3& center, float radius) {
+  insert(0, center_, half_, id, center, radius);
+}
 
 void Octree::insert(std::uint32_t node, const Vec3& node_center, float half, std::uint32_t id, const Vec3& center,
                     float radius) {
@@ -29,13 +36,12 @@ void Octree::insert(std::uint32_t node, const Vec3& node_center, float half, std
   }
   half *= 0.5f;
   for (int octant = 0; octant < 8; ++octant) {
-    const Vec3 child_at = child_center(node_center, half, octant);
-    if (!touches(child_at, half, center, radius)) continue;
+    if (!reaches(node_center, octant, center, radius)) continue;
     if (nodes_[node].children[octant] == 0) {
       nodes_[node].children[octant] = static_cast<std::uint32_t>(nodes_.size());
       nodes_.emplace_back();
     }
-    insert(nodes_[node].children[octant], child_at, half, id, center, radius);
+    insert(nodes_[node].children[octant], child_center(node_center, half, octant), half, id, center, radius);
   }
 }
 

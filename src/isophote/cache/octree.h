@@ -8,17 +8,18 @@
 
 namespace isophote {
 
-/// Finds which of many spheres may contain a point. A sphere is referenced from every cell it touches on the level where
-/// cells are about as large as it [Ward, Rubinstein, Clear 1988], so that a query walks one path from the root to a leaf.
-/// Insertion is serial; any number of threads may query in between.
+/// Finds which of many spheres may contain a point. A sphere is referenced from every cell its box touches on the level
+/// where cells are about as large as it [Ward, Rubinstein, Clear 1988], so that a query walks one path from the root to
+/// a leaf. The bounds are where most spheres lie; beyond them the outermost cells go on for ever. Insertion is serial;
+/// any number of threads may query in between.
 class Octree {
  public:
   explicit Octree(const Box& bounds);
 
   void insert(std::uint32_t id, const Vec3& center, float radius);
 
-  /// Does test(id) hold for any sphere that contains `p`? Asks it of all those, and of some that do not contain `p`, in an order
-  /// fixed by the insertions, until it holds.
+  /// Does test(id) hold for any sphere that contains `p`? Asks it of all those, and of some that do not contain `p`, in
+  /// an order fixed by the insertions, until it holds.
   template <class Test>
   bool any(const Vec3& p, Test&& test) const {
     Vec3 center = center_;
@@ -41,9 +42,11 @@ class Octree {
   };
 
   static Vec3 child_center(const Vec3& c, float half, int octant) {
-    return {octant & 1 ? c.x + half : c.x - half, octant & 2 ? c.y + half : c.y - half, octant & 4 ? c.z + half : c.z - half};
+    return {octant & 1 ? c.x + half : c.x - half, octant & 2 ? c.y + half : c.y - half,
+            octant & 4 ? c.z + half : c.z - half};
   }
-  void insert(std::uint32_t node, const Vec3& node_center, float half, std::uint32_t id, const Vec3& center, float radius);
+  void insert(std::uint32_t node, const Vec3& node_center, float half, std::uint32_t id, const Vec3& center,
+              float radius);
 
   Vec3 center_;
   float half_;

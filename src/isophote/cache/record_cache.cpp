@@ -7,8 +7,9 @@
 namespace isophote {
 namespace {
 
-/// A query is in front of a record (it may see what the record cannot) where it lies under the plane of the mean normal by more than
-/// this part of the record's radius. On a convex or concave sphere the mean plane holds both points, so neighbours serve each other.
+/// A query is in front of a record (it may see what the record cannot) where it lies under the plane of the mean normal
+/// by more than this part of the record's radius. On a convex or concave sphere the mean plane holds both points, so
+/// neighbours serve each other.
 constexpr float in_front = 0.05f;
 
 }  // namespace
@@ -17,10 +18,10 @@ float footprint_error(const Record& record, const Vec3& position, const Vec3& no
   const Vec3 q = position - record.position;
   const float distance = quadratic_form(record.footprint.shape, q);
   if (!(distance < 1)) return infinity;
-  const float cosine = dot(normal, record.normal);
-  if (cosine <= 0) return infinity;
+  if (dot(normal, record.normal) <= 0) return infinity;
   if (dot(q, normal + record.normal) < -2 * in_front * record.footprint.radius) return infinity;
-  return std::sqrt(distance) + record.footprint.normal_scale * std::sqrt(std::max(0.0f, 1 - cosine));
+  // Of the difference, not of 1 - cosine, which rounding keeps from being 0 where the normals are equal.
+  return std::sqrt(distance) + record.footprint.normal_scale * std::sqrt(length_squared(normal - record.normal) / 2);
 }
 
 float falloff_weight(Falloff falloff, float error) {
@@ -55,9 +56,8 @@ std::optional<Rgb> RecordCache::interpolate(const Query& query) const {
 }
 
 bool RecordCache::covers(const Query& query) const {
-  return octree_.any(query.position, [&](std::uint32_t id) {
-    return footprint_error(records_[id], query.position, query.normal) < 1;
-  });
+  return octree_.any(query.position,
+                     [&](std::uint32_t id) { return footprint_error(records_[id], query.position, query.normal) < 1; });
 }
 
 }  // namespace isophote

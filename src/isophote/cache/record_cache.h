@@ -9,8 +9,8 @@
 
 namespace isophote {
 
-/// A place that asks for its irradiance. `normal` decides which records serve (the interpolated normal that records live on);
-/// `facing` is what the value is wanted for (the normal map's normal), reached by the rotational gradient.
+/// A place that asks for its irradiance. `normal` decides which records serve (the interpolated normal that records
+/// live on); `facing` is what the value is wanted for (the normal map's normal), reached by the rotational gradient.
 struct Query {
   Vec3 position;
   Vec3 normal;
@@ -31,8 +31,8 @@ class RecordCache {
   /// Builds the index anew, tight about footprints that have shrunk.
   void reindex();
 
-  /// Irradiance at the query, interpolated among the records that serve it: sum of weight times extrapolated value over sum of
-  /// weights [Ward, Heckbert 1992]. Nothing where no record serves.
+  /// Irradiance at the query, interpolated among the records that serve it: sum of weight times extrapolated value over
+  /// sum of weights [Ward, Heckbert 1992]. Nothing where no record serves.
   std::optional<Rgb> interpolate(const Query& query) const;
   /// Does any record serve?
   bool covers(const Query& query) const;
@@ -49,8 +49,8 @@ class RecordCache {
   Octree octree_;
 };
 
-/// The error of using `record` at (position, normal), as its footprint measures it: under 1 inside. Infinite where the query lies
-/// in front of the record [Ward, Rubinstein, Clear 1988] or on the other side of the surface.
+/// The error of using `record` at (position, normal), as its footprint measures it: under 1 inside. Infinite where the
+/// query lies in front of the record [Ward, Rubinstein, Clear 1988] or on the other side of the surface.
 float footprint_error(const Record& record, const Vec3& position, const Vec3& normal);
 
 /// The weight for an error in [0, 1).

@@ -3,11 +3,13 @@
 #include <bit>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "isophote/core/atomic_file.h"
 #include "isophote/core/error.h"
 #include "isophote/core/hash.h"
+#include "isophote/core/ray.h"
 
 namespace isophote {
 namespace {
@@ -73,19 +75,27 @@ std::uint64_t checksum(const char* bytes, std::size_t count) {
 bool usable(const Record& r) {
   const Footprint& f = r.footprint;
   const auto finite = [](const Gradient<Rgb>& g) { return is_finite(g.x) && is_finite(g.y) && is_finite(g.z); };
-  const bool positive = f.shape.xx > 0 && f.shape.yy > 0 && f.shape.zz > 0 && f.radius > 0;
-  return is_finite(r.position) && std::abs(length(r.normal) - 1) < 1e-3f && positive && std::isfinite(f.radius) &&
-         std::isfinite(f.normal_scale) && static_cast<int>(f.falloff) <= static_cast<int>(Falloff::tent) && f.order <= 1 &&
+  const auto within = [](float v, float low, float high) { return low <= v && v <= high; };  // false for NaN
+  constexpr float most = std::numeric_limits<float>::max();
+  const bool placed = is_finite(r.position) && std::abs(length(r.normal) - 1) < 1e-3f;
+  // A positive diagonal and finite products: a shape that is not positive definite serves too much, never a NaN.
+  const Vec3 diagonal{f.shape.xx, f.shape.yy, f.shape.zz}, others{f.shape.xy, f.shape.xz, f.shape.yz};
+  const bool shaped = is_finite(diagonal) && is_finite(others) && f.shape.xx > 0 && f.shape.yy > 0 && f.shape.zz > 0;
+  const bool bounded = f.radius > 0 && within(f.radius, 0, most) && within(f.normal_scale, 0, most) &&
+                       within(f.unscaled, 0, most) && within(f.smallest, 0, f.radius) && f.largest >= f.radius;
+  return placed && shaped && bounded && static_cast<int>(f.falloff) <= static_cast<int>(Falloff::tent) &&
+         f.order <= 1 && within(r.gradient_scale, 0, 1) && within(r.jet.distances.harmonic_mean, 0, infinity) &&
          is_finite(r.jet.value) && finite(r.jet.translational) && finite(r.jet.rotational);
 }
 
 std::string read_all(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw UserError(path + ": cannot be opened");
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
+  std::string bytes;
+  for (char piece[1 << 16]; in.read(piece, sizeof piece), in.gcount() > 0;)
+    bytes.append(piece, static_cast<std::size_t>(in.gcount()));
   if (in.bad()) throw UserError(path + ": cannot be read");
-  return std::move(bytes).str();
+  return bytes;
 }
 
 }  // namespace
@@ -113,7 +123,8 @@ RecordFile read_records(const std::string& path) {
   if (bytes.size() < head + 16) throw UserError(path + ": is cut off");
   Unpacker in{bytes.data() + sizeof magic};
   if (const auto found = in.integer(4); found != version)
-    throw UserError(path + ": has version " + std::to_string(found) + ", this program reads " + std::to_string(version));
+    throw UserError(path + ": has version " + std::to_string(found) + ", this program reads " +
+                    std::to_string(version));
   if (Unpacker tail{bytes.data() + bytes.size() - 8}; tail.integer(8) != checksum(bytes.data(), bytes.size() - 8))
     throw UserError(path + ": is cut off or harmed (its checksum does not agree)");
 
@@ -124,7 +135,8 @@ RecordFile read_records(const std::string& path) {
   file.settings.assign(in.at, text);
   in.at += text;
   const std::uint64_t count = in.integer(8), left = bytes.size() - head - 16 - text, each = record_size();
-  if (count != left / each || left % each != 0) throw UserError(path + ": is malformed (its count of records is wrong)");
+  if (count != left / each || left % each != 0)
+    throw UserError(path + ": is malformed (its count of records is wrong)");
   file.records.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     transfer(in, file.records[i]);

@@ -21,7 +21,8 @@ void write_records(const std::string& path, const RecordFile& file);
 /// Throws UserError `PATH: reason` for anything but a whole, unharmed file of this version with finite, usable records.
 RecordFile read_records(const std::string& path);
 
-/// Throws UserError `PATH: reason` where the file's scene or settings are not those given; names the first setting that differs.
+/// Throws UserError `PATH: reason` where the file's scene or settings are not those given; names the first setting that
+/// differs.
 void require_match(const std::string& path, const RecordFile& file, std::uint64_t scene, const std::string& settings);
 
 }  // namespace isophote

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "isophote/core/frame.h"
-#include "isophote/core/rgb.h"
 #include "isophote/core/ray.h"
+#include "isophote/core/rgb.h"
 #include "isophote/sampling/strata.h"
 
 namespace isophote {

@@ -20,8 +20,9 @@ struct DistanceStats {
   float harmonic_mean = 0;  ///< infinity under an open sky
 };
 
-/// A value with its derivatives. Units: irradiance in W/m2 (cosine-weighted solid angle), gradients per metre and per radian.
-/// The value at position + d with the normal turned from n_i to n is about value + translational.dot(d) + rotational.dot(n_i x n).
+/// A value with its derivatives. Units: irradiance in W/m2 (cosine-weighted solid angle), gradients per metre and per
+/// radian. The value at position + d with the normal turned from n_i to n is about value + translational.dot(d) +
+/// rotational.dot(n_i x n).
 template <class V>
 struct Jet {
   V value{};

@@ -21,7 +21,9 @@ struct TangentGradient {
 
   void add(const Azimuth& direction, const Rgbd& amount) { u += amount * direction.cos, v += amount * direction.sin; }
   /// Adds along the direction a quarter turn ahead, that of growing azimuth.
-  void add_across(const Azimuth& direction, const Rgbd& amount) { u -= amount * direction.sin, v += amount * direction.cos; }
+  void add_across(const Azimuth& direction, const Rgbd& amount) {
+    u -= amount * direction.sin, v += amount * direction.cos;
+  }
 
   Gradient<Rgb> to_world(const Frame& frame) const {
     const Framed f(frame);
@@ -35,7 +37,8 @@ double rotation_weight(const Strata& s, int j, RotationWeights weights) {
     return half_turn / s.size() * std::sqrt(sin2 / (1 - sin2));
   }
   const double inner = s.theta_edge(j), outer = s.theta_edge(j + 1);
-  return 2 * std::sin(half_turn / s.azimuthal) * ((outer - inner) / 2 - (std::sin(2 * outer) - std::sin(2 * inner)) / 4);
+  return 2 * std::sin(half_turn / s.azimuthal) *
+         ((outer - inner) / 2 - (std::sin(2 * outer) - std::sin(2 * inner)) / 4);
 }
 
 Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeights weights) {
@@ -50,8 +53,8 @@ Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeight
   return result.to_world(gather.frame);
 }
 
-/// The radiance step from `from` to `to` over the wall between them, over the wall's distance: the nearer of the two, since
-/// it is the nearer surface that covers and uncovers the other. Between two samples of the sky nothing moves.
+/// The radiance step from `from` to `to` over the wall between them, over the wall's distance: the nearer of the two,
+/// since it is the nearer surface that covers and uncovers the other. Between two samples of the sky nothing moves.
 Rgbd step(const GatherSample& from, const GatherSample& to) {
   return (Rgbd(to.radiance) - Rgbd(from.radiance)) / static_cast<double>(std::min(from.distance, to.distance));
 }

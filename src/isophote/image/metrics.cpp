@@ -30,6 +30,7 @@ void require_comparable(const RgbImage& image, const RgbImage& reference) {
 }
 
 double square(double x) { return x * x; }
+double root(double x) { return std::sqrt(std::max(0.0, x)); }
 double relative(double value, double scale) { return value == 0 ? 0 : value / scale; }
 
 /// A rectangle of doubles, row by row.
@@ -90,23 +91,34 @@ double structural_similarity(const Plane& a, const Plane& b) {
   return sum / static_cast<double>(mean_a.pixels.size());
 }
 
-double block_rms(const RgbImage& image, const RgbImage& reference) {
-  const RgbImage a = block_average(image, block), b = block_average(reference, block);
+double block_rms(const RgbImage& image, const RgbImage& reference, const RgbImage& second) {
+  const RgbImage a = block_average(image, block), b = block_average(reference, block), c = block_average(second, block);
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    sum += square(luminance(Rgbd(a.pixels[i])) - luminance(Rgbd(b.pixels[i])));
-  return std::sqrt(sum / static_cast<double>(a.pixels.size()));
+    sum += luminance(Rgbd(a.pixels[i]) - Rgbd(b.pixels[i])) * luminance(Rgbd(a.pixels[i]) - Rgbd(c.pixels[i]));
+  return root(sum / static_cast<double>(a.pixels.size()));
+}
+
+RgbImage mean_image(const RgbImage& a, const RgbImage& b) {
+  RgbImage mean = a;
+  for (std::size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] = (a.pixels[i] + b.pixels[i]) * 0.5f;
+  return mean;
 }
 
 }  // namespace
 
-Difference compare(const RgbImage& image, const RgbImage& reference) {
+Difference compare(const RgbImage& image, const RgbImage& reference) { return compare(image, reference, reference); }
+
+Difference compare(const RgbImage& image, const RgbImage& reference, const RgbImage& second) {
   require_comparable(image, reference);
+  require_comparable(image, second);
+  const RgbImage both = mean_image(reference, second);
   const double pixels = static_cast<double>(image.pixels.size());
   double squares = 0, all_channels = 0, luminance_sum = 0, reference_luminance_sum = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const Rgbd a(image.pixels[i]), b(reference.pixels[i]);
-    squares += square(a.r - b.r) + square(a.g - b.g) + square(a.b - b.b);
+    const Rgbd a(image.pixels[i]), to_first = a - Rgbd(reference.pixels[i]), to_second = a - Rgbd(second.pixels[i]);
+    const Rgbd product = to_first * to_second, b(both.pixels[i]);
+    squares += product.r + product.g + product.b;
     all_channels += mean(b);
     luminance_sum += luminance(a);
     reference_luminance_sum += luminance(b);
@@ -115,18 +127,19 @@ Difference compare(const RgbImage& image, const RgbImage& reference) {
 
   double relative_squares = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const double a = luminance(Rgbd(image.pixels[i])), b = luminance(Rgbd(reference.pixels[i]));
-    relative_squares += relative(square(a - b), square(b) + square(0.01 * mean_reference));
+    const double a = luminance(Rgbd(image.pixels[i])), b = luminance(Rgbd(both.pixels[i]));
+    const double product = (a - luminance(Rgbd(reference.pixels[i]))) * (a - luminance(Rgbd(second.pixels[i])));
+    relative_squares += relative(product, square(b) + square(0.01 * mean_reference));
   }
 
   Difference d;
-  d.rmse = std::sqrt(squares / (3 * pixels));
+  d.rmse = root(squares / (3 * pixels));
   d.relative_rmse = relative(d.rmse, all_channels / pixels);
-  d.relative_mse = relative_squares / pixels;
+  d.relative_mse = std::max(0.0, relative_squares / pixels);
   d.bias = relative(luminance_sum - reference_luminance_sum, reference_luminance_sum);
-  d.block_error = relative(block_rms(image, reference), mean_reference);
-  const float exposure = auto_exposure(reference);
-  d.ssim = structural_similarity(displayed(image, exposure), displayed(reference, exposure));
+  d.block_error = relative(block_rms(image, reference, second), mean_reference);
+  const float exposure = auto_exposure(both);
+  d.ssim = structural_similarity(displayed(image, exposure), displayed(both, exposure));
   return d;
 }
 

@@ -13,7 +13,7 @@ constexpr std::size_t batch_size = 64;
 constexpr std::size_t least_batch = 8;
 /// Passes over all pixels end when one finds fewer than this part of them uncovered.
 constexpr double good_coverage = 1e-3;
-constexpr int most_passes = 6;
+constexpr int most_passes = 16;
 
 /// An uncovered point of the picture. `reach` is the radius that a record here is expected to have: that of the record nearest in
 /// terms of its own footprint.
@@ -156,7 +156,7 @@ Record make_record(const Job& job, const RecordCache& cache, const Place& place,
                    RayCounts& counts) {
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), job.seed, id);
   gather_hemisphere(job.world, job.method.secondary ? &cache : nullptr, place, job.strata, key, scratch, counts);
-  return job.method.make_record(scratch, {place.pixel, job.world.rays.scene_scale()});
+  return job.method.make_record(scratch, {place.pixel, place.pixel * static_cast<float>(job.height), job.world.rays.scene_scale()});
 }
 
 RecordCache empty_cache(const Job& job) { return RecordCache(job.world.scene.bounds()); }

@@ -34,7 +34,8 @@ struct MeshContext {
   std::span<const Material> materials;
   int default_material;
   const Warn& warn;
-  std::size_t dropped = 0;  ///< degenerate triangles
+  std::size_t dropped = 0;            ///< degenerate triangles
+  std::size_t without_triangles = 0;  ///< primitives of which nothing is left
 };
 
 class PrimitiveReader {
@@ -246,11 +247,16 @@ std::vector<Mesh> read_meshes(const tinygltf::Model& model, std::span<const Plac
         if (const std::string reason = reason_to_skip(primitive); !reason.empty())
           return warn(place + ": is skipped: " + reason);
         Mesh mesh = PrimitiveReader(context, primitive, placed.to_world, place).read();
-        if (mesh.triangles.empty()) return warn(place + ": is skipped: it has no triangle with an area");
+        if (mesh.triangles.empty()) {
+          ++context.without_triangles;
+          return;
+        }
         mesh.name = source.name.empty() ? model.nodes[static_cast<std::size_t>(placed.node)].name : source.name;
         meshes.push_back(std::move(mesh));
       });
   if (context.dropped > 0) warn(fmt::format("{} degenerate triangles are left out", context.dropped));
+  if (context.without_triangles > 0)
+    warn(fmt::format("{} primitives without a triangle are left out", context.without_triangles));
   return meshes;
 }
 

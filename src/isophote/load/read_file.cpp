@@ -12,7 +12,8 @@ std::vector<unsigned char> read_file(const std::filesystem::path& path, MemoryBu
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw UserError(error ? error.message() : "no such file");
+  if (status.type() == fs::file_type::not_found) throw UserError("no such file");
+  if (error) throw UserError(error.message());
   if (fs::is_directory(status)) throw UserError("is a directory");
   if (!fs::is_regular_file(status)) throw UserError("is not a regular file");
   const std::uintmax_t size = fs::file_size(path, error);

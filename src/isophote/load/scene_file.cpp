@@ -63,8 +63,11 @@ LoadedScene load_scene(const std::string& path, const Warn& warn) {
   if (is_gltf(path)) return {load_gltf(path, warn), {}};
   if (lower_suffix(path) != ".toml") throw UserError(path + ": is not a scene: a .glb, .gltf or .toml file is needed");
 
-  constexpr std::uint64_t largest = 1 << 20;
-  MemoryBudget budget(largest);
+  constexpr std::uint64_t largest = 1 << 20;  // bytes; settings are a page
+  std::error_code error;
+  if (const auto size = fs::file_size(path, error); !error && size > largest)
+    throw UserError(path + ": is over 1 MiB, too large for a scene file");
+  MemoryBudget budget(physical_memory());
   const auto bytes = with_place(path, [&] { return read_file(path, budget); });
   const SceneToml toml = parse_scene_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
   const fs::path folder = fs::path(path).parent_path();

@@ -32,7 +32,7 @@ double solid_angle(int y, int width, int height) {
 }
 
 /// Solid angle of an area element of the unit square, over its area.
-float stretch(Vec2 point) { return 2 * pi * pi * std::sin(pi * point.y); }
+float stretch(Vec2 point) { return 2 * pi * pi * std::sin(pi * std::min(point.y, 1 - point.y)); }
 
 }  // namespace
 
@@ -60,11 +60,11 @@ Environment::Environment(const EnvironmentMap& map) : map_(map) {
 
 Vec2 Environment::point(const Vec3& direction) const {
   const float turn = (std::atan2(direction.x, -direction.z) + map_.rotation) / (2 * pi) + 0.5f;
-  return {std::min(turn - std::floor(turn), 0x1.fffffep-1f), std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / pi};
+  return {std::min(turn - std::floor(turn), 0x1.fffffep-1f), std::atan2(std::hypot(direction.x, direction.z), direction.y) / pi};
 }
 
 Vec3 Environment::direction(Vec2 point) const {
-  const float azimuth = 2 * pi * (point.x - 0.5f) - map_.rotation, theta = pi * point.y, s = std::sin(theta);
+  const float azimuth = 2 * pi * (point.x - 0.5f) - map_.rotation, theta = pi * point.y, s = std::sin(pi * std::min(point.y, 1 - point.y));
   return {s * std::sin(azimuth), std::cos(theta), -s * std::cos(azimuth)};
 }
 

@@ -5,14 +5,14 @@
 namespace isophote::ggx {
 namespace {
 
-constexpr int nodes = 36;  // of the table along each axis
+constexpr int nodes = 44;  // of the table along each axis
 
 // Both axes are square roots: the albedo bends most at grazing angles and on smooth surfaces.
 using Table = std::array<std::array<SplitSum, nodes>, nodes>;  // [sqrt(alpha)][sqrt(cos)]
 
 /// Points of the disc from which visible normals are made, the half that mirrors the other: a Fibonacci lattice, for
 /// the integrand breaks off where reflections pass under the horizon.
-constexpr int lattice_points = 1597, lattice_step = 987;
+constexpr int lattice_points = 987, lattice_step = 610;
 using Lattice = std::array<Vec2, lattice_points>;
 Lattice make_lattice() {
   Lattice points;

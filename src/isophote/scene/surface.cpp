@@ -100,6 +100,16 @@ Rgb absorption(const Material& material) {
   return {channel(c.r), channel(c.g), channel(c.b)};
 }
 
+/// By how much barycentric coordinates must be off the edges for a point to lie inside the triangle in spite of
+/// rounding: a point that rounds onto the next wall sees through it. `size` is twice the area; its quotient by the
+/// longest edge the least height.
+float edge_inset(const Vec3& p, const Vec3& e1, const Vec3& e2, float size) {
+  const float longest = std::sqrt(std::max({length_squared(e1), length_squared(e2), length_squared(e2 - e1)}));
+  const float magnitude = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + longest;
+  const float needed = 0x1p-21f * magnitude * longest;
+  return needed * 6 < size ? needed / size : 1 / 6.0f;
+}
+
 /// Everything of the lobes but the frame.
 Bsdf lobes(const Corners& at, bool front) {
   const Material& material = at.material();
@@ -141,9 +151,10 @@ SurfacePoint surface_point(const Scene& scene, const Ray& ray, const Hit& hit) {
   SurfacePoint point;
   point.mesh = hit.mesh;
   point.triangle = hit.triangle;
-  point.position = p0 + e1 * hit.u + e2 * hit.v;
   const Vec3 across = cross(e1, e2);
   const float size = length(across);
+  const float inset = edge_inset(p0, e1, e2, size), shrink = 1 - 3 * inset;
+  point.position = p0 + e1 * (inset + hit.u * shrink) + e2 * (inset + hit.v * shrink);
   const Vec3 winding = size > 0 ? across / size : wo;
   point.front = dot(winding, wo) >= 0;
   point.geometric_normal = point.front ? winding : -winding;
@@ -179,10 +190,10 @@ Rgb emission(const Scene& scene, const Hit& hit) {
 }
 
 Vec3 offset_origin(const SurfacePoint& point, const Vec3& direction, float scene_scale) {
-  // Positions and hits are off by a few units in the last place (2^-24) of the largest coordinate about.
+  // Positions and hits are off by up to 4 units in the last place (2^-24) of the largest coordinate about.
   const Vec3& p = point.position;
   const float magnitude = std::max({scene_scale, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  const float distance = 0x1p-18f * magnitude;
+  const float distance = 0x1p-20f * magnitude;
   return p + point.geometric_normal * (dot(direction, point.geometric_normal) >= 0 ? distance : -distance);
 }
 

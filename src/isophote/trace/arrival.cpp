@@ -56,7 +56,7 @@ Arrival follow(const World& world, const Ray& start, int depth, Sampler& sampler
     const float specular = point.bsdf.has_specular() ? lobe_chances(point.bsdf, wo).specular : 0;
     const Vec2 u = specular > 0 ? sampler.next2() : Vec2{};
     if (!(specular > 0 && u.x < specular)) {
-      first.throughput = first.throughput / (1 - specular);
+      if (specular > 0) first.throughput = first.throughput / (1 - specular);
       first.point = point;
       return arrival;
     }

@@ -8,8 +8,8 @@
 
 namespace isophote {
 
-/// How much a record counts as the error t at the query grows from 0 to 1. `ward` is 1/t - 1 [Ward, Rubinstein, Clear 1988,
-/// shifted to reach 0 at the rim, so that nothing pops]; `tent` is 1 - t.
+/// How much a record counts as the error t at the query grows from 0 to 1. `ward` is 1/t - 1 [Ward, Rubinstein, Clear
+/// 1988, shifted to reach 0 at the rim, so that nothing pops]; `tent` is 1 - t.
 enum class Falloff : std::uint8_t { ward, tent };
 
 /// Where a record may be used. A record at x_i with normal n_i serves a query (x, n) whose error
@@ -18,12 +18,12 @@ enum class Falloff : std::uint8_t { ward, tent };
 struct Footprint {
   Sym3 shape;
   float normal_scale = 0;
-  float radius = 0;       ///< the longest semi-axis of the region where t < 1 for equal normals
-  float unscaled = 0;     ///< the radius before the wanted error and pixel limits shaped it; neighbours limit this one
-  float smallest = 0;     ///< bounds that `radius` keeps when it is changed
+  float radius = 0;    ///< the longest semi-axis of the region where t < 1 for equal normals
+  float unscaled = 0;  ///< the radius before the wanted error and pixel limits shaped it; neighbours limit this one
+  float smallest = 0;  ///< bounds that `radius` keeps when it is changed
   float largest = std::numeric_limits<float>::infinity();
   Falloff falloff = Falloff::ward;
-  std::uint8_t order = 0; ///< 0: the value alone; 1: extrapolated by its gradients
+  std::uint8_t order = 0;  ///< 0: the value alone; 1: extrapolated by its gradients
 
   /// A round footprint.
   static Footprint disk(float radius, float normal_scale) {
@@ -38,7 +38,8 @@ struct Footprint {
   void resize(float wanted) {
     wanted = std::max(smallest, std::min(largest, wanted));
     const float ratio = radius / wanted, factor = ratio * ratio;
-    shape = {shape.xx * factor, shape.xy * factor, shape.xz * factor, shape.yy * factor, shape.yz * factor, shape.zz * factor};
+    shape = {shape.xx * factor, shape.xy * factor, shape.xz * factor,
+             shape.yy * factor, shape.yz * factor, shape.zz * factor};
     radius = wanted;
   }
 };
@@ -46,6 +47,7 @@ struct Footprint {
 /// How a record is seen when its footprint is decided.
 struct View {
   float pixel = 0;        ///< length that a pixel spans at the record, along the path through mirrors and glass
+  float picture = 0;      ///< length that the picture's height spans there
   float scene_scale = 1;  ///< diagonal of the scene's bounds
 };
 

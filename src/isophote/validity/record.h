@@ -6,8 +6,8 @@
 
 namespace isophote {
 
-/// A place at which the illumination is known, with its derivatives and the region where they may be used. What a lookup
-/// reads first comes first.
+/// A place at which the illumination is known, with its derivatives and the region where they may be used. What a
+/// lookup reads first comes first.
 struct Record {
   Vec3 position;
   Vec3 normal;  ///< unit

@@ -1,0 +1,111 @@
+#include "isophote/cache/catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "isophote/core/error.h"
+
+namespace isophote {
+namespace {
+
+std::string refusal(const Method& method) {
+  try {
+    check_combination(method);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+template <class F>
+std::string message(const F& f) {
+  try {
+    f();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+bool mentions(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+TEST(Catalogue, EveryMethodStandsAndIsFoundByItsName) {
+  std::set<std::string> names;
+  for (const Method& method : methods()) {
+    EXPECT_EQ(refusal(method), "") << method.name;
+    EXPECT_EQ(find_method(method.name).summary, method.summary);
+    EXPECT_EQ(method.estimator == nullptr, method.metric == nullptr);
+    EXPECT_TRUE(names.insert(method.name).second);
+  }
+  for (const char* name : {"path", "ward1988", "ward1992", "bounded", "uniform", "cached"})
+    EXPECT_TRUE(names.count(name));
+  for (const Estimator& e : estimators()) EXPECT_EQ(&find_estimator(e.name), &e);
+  for (const Metric& m : metrics()) EXPECT_EQ(&find_metric(m.name), &m);
+  EXPECT_FALSE(find_method("path").caches());
+}
+
+TEST(Catalogue, UnknownNamesListTheKnown) {
+  const std::string method = message([] { find_method("ward1989"); });
+  EXPECT_TRUE(mentions(method, "method 'ward1989'"));
+  for (const Method& m : methods()) EXPECT_TRUE(mentions(method, m.name)) << method;
+  const std::string estimator = message([] { find_estimator(""); });
+  for (const Estimator& e : estimators()) EXPECT_TRUE(mentions(estimator, e.name)) << estimator;
+  const std::string metric = message([] { find_metric("Split-Sphere"); });
+  for (const Metric& m : metrics()) EXPECT_TRUE(mentions(metric, m.name)) << metric;
+}
+
+TEST(Catalogue, EveryPairWithoutBoundsIsAllowed) {
+  for (const Estimator& e : estimators())
+    for (const Metric& m : metrics()) {
+      Method method = find_method("ward1992");
+      method.estimator = &e, method.metric = &m;
+      EXPECT_EQ(refusal(method), "");
+    }
+}
+
+TEST(Catalogue, RefusalsNameBothSides) {
+  Method no_gradient = find_method("bounded");
+  no_gradient.estimator = &find_estimator("irradiance");
+  EXPECT_TRUE(mentions(refusal(no_gradient), "'bounded-split-sphere'") &&
+              mentions(refusal(no_gradient), "'irradiance'"));
+  no_gradient.settings.bounds.gradient = false;
+  EXPECT_EQ(refusal(no_gradient), "");
+
+  const RadiusBounds each[] = {{.min_pixels = 1}, {.max_pixels = 1},  {.min_view = 1},     {.min_length = 1},
+                               {.max_length = 1}, {.gradient = true}, {.neighbours = true}};
+  for (const char* name : {"split-sphere", "uniform"})
+    for (const RadiusBounds& bounds : each) {
+      Method unheeded = find_method("ward1992");
+      unheeded.metric = &find_metric(name);
+      unheeded.settings.bounds = bounds;
+      EXPECT_TRUE(mentions(refusal(unheeded), "'" + std::string(name) + "'"));
+      EXPECT_TRUE(mentions(refusal(unheeded), "'ward-heckbert'"));
+    }
+}
+
+TEST(Catalogue, MakesAndSettlesRecordsAsItsPartsSay) {
+  HemisphereGather gather{{1, 2, 3}, Frame(Vec3{0, 0.6f, 0.8f}), {4, 12}, std::vector<GatherSample>(48)};
+  for (std::size_t i = 0; i < 48; ++i) {
+    gather.samples[i].distance = 1 + 0.1f * static_cast<float>(i);
+    gather.samples[i].radiance = {1, 0.5f, static_cast<float>(i)};
+  }
+  const View view{.pixel = 0.001f, .scene_scale = 10};
+  for (const Method& method : methods()) {
+    if (!method.caches()) continue;
+    std::vector<Record> records{method.make_record(gather, view)};
+    EXPECT_EQ(records[0].position, gather.position);
+    EXPECT_EQ(records[0].normal, gather.frame.n);
+    EXPECT_EQ(records[0].footprint.order, method.estimator->gradients ? 1 : 0);
+    EXPECT_EQ(records[0].jet.translational == Gradient<Rgb>{}, !method.estimator->gradients);
+    const float radius = records[0].footprint.radius;
+    const std::uint32_t fresh = 0;
+    method.settle(records, {&fresh, 1});
+    EXPECT_EQ(records[0].footprint.radius, radius);
+    EXPECT_GT(radius, 0);
+  }
+  // the bound on pixels is what sets these two apart here
+  EXPECT_FLOAT_EQ(find_method("bounded").make_record(gather, view).footprint.radius, 0.02f);
+  EXPECT_GT(find_method("cached").make_record(gather, view).footprint.radius, 0.1f);
+}
+
+}  // namespace
+}  // namespace isophote

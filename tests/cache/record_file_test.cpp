@@ -1,0 +1,241 @@
+#include "isophote/cache/record_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "isophote/core/error.h"
+#include "isophote/core/ray.h"
+#include "support/records.h"
+#include "support/sign_record_file.h"
+
+namespace isophote::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where things lie in a file: magic, version, scene, length of the settings, settings, count, records, checksum.
+constexpr std::size_t settings_at = 24, record_bytes = 162;
+
+class RecordFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = (fs::path(testing::TempDir()) /
+             ("records_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
+                .string();
+    fs::remove_all(path_);
+  }
+  void TearDown() override { fs::remove_all(path_); }
+
+  static RecordFile sample(int count) {
+    RandomPlaces random(17);
+    RecordFile file{0x0123456789abcdefull, "method=bounded\na=0.2\nseed=7\n", {}};
+    for (int i = 0; i < count; ++i) {
+      Record r = round_record(random.point({-5, -5, -5}, {5, 5, 5}), random.direction(), random.number(0.1f, 1), 5);
+      r.footprint.shape.xy = random.number(-0.1f, 0.1f);
+      r.footprint.unscaled = random.number(0, 9);
+      r.footprint.smallest = random.number(0, 0.1f);
+      r.footprint.largest = i % 2 ? infinity : 3;
+      r.footprint.falloff = i % 2 ? Falloff::tent : Falloff::ward;
+      r.footprint.order = static_cast<std::uint8_t>(i % 3 ? 1 : 0);
+      r.gradient_scale = random.number(0, 1);
+      r.jet.value = random.colour(0, 1e6f);
+      r.jet.translational = random.gradient(3);
+      r.jet.rotational = random.gradient(3);
+      r.jet.distances.harmonic_mean = i % 2 ? infinity : 2;
+      file.records.push_back(r);
+    }
+    return file;
+  }
+
+  std::string bytes() const {
+    std::ostringstream text;
+    text << std::ifstream(path_, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  void put(const std::string& content) const { std::ofstream(path_, std::ios::binary) << content; }
+  /// The same with the checksum that belongs to it.
+  void put_signed(const std::string& content) const { put(sign_record_file(content)); }
+  /// Why the file is refused; empty where it is not.
+  std::string refusal() const {
+    try {
+      read_records(path_);
+    } catch (const UserError& error) {
+      EXPECT_EQ(std::string(error.what()).find(path_ + ": "), 0u) << error.what();
+      return std::string(error.what()).substr(path_.size() + 2);
+    }
+    return "";
+  }
+
+  std::string path_;
+};
+
+void put_integer(std::string& bytes, std::size_t at, std::uint64_t value, int size) {
+  for (int i = 0; i < size; ++i) bytes[at + i] = static_cast<char>(value >> (8 * i));
+}
+
+TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
+  for (const int count : {0, 1, 50}) {
+    const RecordFile file = sample(count);
+    write_records(path_, file);
+    const RecordFile back = read_records(path_);
+    EXPECT_EQ(back.scene, file.scene);
+    EXPECT_EQ(back.settings, file.settings);
+    ASSERT_EQ(back.records.size(), file.records.size());
+    for (std::size_t i = 0; i < file.records.size(); ++i) {
+      const Record &a = file.records[i], &b = back.records[i];
+      EXPECT_EQ(a.position, b.position);
+      EXPECT_EQ(a.normal, b.normal);
+      EXPECT_EQ(a.footprint.shape, b.footprint.shape);
+      EXPECT_EQ(a.footprint.normal_scale, b.footprint.normal_scale);
+      EXPECT_EQ(a.footprint.radius, b.footprint.radius);
+      EXPECT_EQ(a.footprint.unscaled, b.footprint.unscaled);
+      EXPECT_EQ(a.footprint.smallest, b.footprint.smallest);
+      EXPECT_EQ(a.footprint.largest, b.footprint.largest);
+      EXPECT_EQ(a.footprint.falloff, b.footprint.falloff);
+      EXPECT_EQ(a.footprint.order, b.footprint.order);
+      EXPECT_EQ(a.gradient_scale, b.gradient_scale);
+      EXPECT_EQ(a.jet.value, b.jet.value);
+      EXPECT_EQ(a.jet.translational, b.jet.translational);
+      EXPECT_EQ(a.jet.rotational, b.jet.rotational);
+      EXPECT_EQ(a.jet.distances.harmonic_mean, b.jet.distances.harmonic_mean);
+    }
+    const std::string first = bytes();
+    EXPECT_EQ(first.size(), settings_at + file.settings.size() + 16 + record_bytes * static_cast<std::size_t>(count));
+    write_records(path_, back);
+    EXPECT_EQ(bytes(), first);
+  }
+}
+
+TEST_F(RecordFileTest, IsLittleEndianAndVersioned) {
+  write_records(path_, sample(1));
+  const std::string content = bytes();
+  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\1\0\0\0", 12));
+  EXPECT_EQ(static_cast<unsigned char>(content[12]), 0xef);  // the scene's lowest byte
+  std::string later = content;
+  put_integer(later, 8, 2, 4);
+  put_signed(later);
+  EXPECT_EQ(refusal(), "has version 2, this program reads 1");
+}
+
+TEST_F(RecordFileTest, EveryFlippedByteIsRefused) {
+  write_records(path_, sample(1));
+  const std::string whole = bytes();
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    for (const int flip : {0x01, 0x80}) {
+      std::string harmed = whole;
+      harmed[i] = static_cast<char>(harmed[i] ^ flip);
+      put(harmed);
+      EXPECT_NE(refusal(), "") << "byte " << i;
+    }
+}
+
+TEST_F(RecordFileTest, EveryTruncationAndAnExtensionIsRefused) {
+  write_records(path_, sample(2));
+  const std::string whole = bytes();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    put(whole.substr(0, size));
+    EXPECT_NE(refusal(), "") << size << " bytes";
+  }
+  put(whole + '\0');
+  EXPECT_NE(refusal(), "");
+}
+
+TEST_F(RecordFileTest, WrongLengthsWithARightChecksumAreRefused) {
+  const RecordFile file = sample(3);
+  write_records(path_, file);
+  const std::string whole = bytes();
+  const std::size_t count_at = settings_at + file.settings.size();
+  for (const std::uint64_t count :
+       {0ull, 2ull, 4ull, 1ull << 32, 0xffffffffffffffffull, 0xffffffffffffffffull / record_bytes + 4}) {
+    std::string crafted = whole;
+    put_integer(crafted, count_at, count, 8);
+    put_signed(crafted);
+    EXPECT_NE(refusal().find("malformed"), std::string::npos) << count;
+  }
+  for (const std::uint64_t length : {std::uint64_t{0}, file.settings.size() - 1, file.settings.size() + 1,
+                                     whole.size() - 39, whole.size(), std::uint64_t{0xffffffff}}) {
+    std::string crafted = whole;
+    put_integer(crafted, settings_at - 4, length, 4);
+    put_signed(crafted);
+    EXPECT_NE(refusal().find("malformed"), std::string::npos) << length;
+  }
+}
+
+// Whoever signs a file of nonsense still does not get it into a lookup.
+TEST_F(RecordFileTest, UnusableRecordsWithARightChecksumAreRefused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::function<void(Record&)>> harms = {
+      [&](Record& r) { r.position.y = nan; },
+      [&](Record& r) {
+        r.normal = {0, 0, 2};
+      },
+      [&](Record& r) {
+        r.normal = {0, 0, 0};
+      },
+      [&](Record& r) { r.footprint.shape.xx = -1; },
+      [&](Record& r) { r.footprint.shape.zz = infinity; },
+      [&](Record& r) { r.footprint.shape.xy = nan; },
+      [&](Record& r) { r.footprint.normal_scale = nan; },
+      [&](Record& r) { r.footprint.normal_scale = -1; },
+      [&](Record& r) { r.footprint.radius = 0; },
+      [&](Record& r) { r.footprint.radius = infinity; },
+      [&](Record& r) { r.footprint.unscaled = nan; },
+      [&](Record& r) { r.footprint.smallest = r.footprint.radius * 2; },
+      [&](Record& r) { r.footprint.largest = r.footprint.radius / 2; },
+      [&](Record& r) { r.footprint.largest = nan; },
+      [&](Record& r) { r.footprint.falloff = static_cast<Falloff>(2); },
+      [&](Record& r) { r.footprint.order = 2; },
+      [&](Record& r) { r.gradient_scale = nan; },
+      [&](Record& r) { r.gradient_scale = 1.5f; },
+      [&](Record& r) { r.jet.value.g = infinity; },
+      [&](Record& r) { r.jet.translational.z.b = nan; },
+      [&](Record& r) { r.jet.rotational.x.r = nan; },
+      [&](Record& r) { r.jet.distances.harmonic_mean = nan; },
+  };
+  for (std::size_t i = 0; i < harms.size(); ++i) {
+    RecordFile file = sample(3);
+    harms[i](file.records[1]);
+    write_records(path_, file);
+    EXPECT_EQ(refusal(), "record 1 is malformed") << "harm " << i;
+  }
+}
+
+TEST_F(RecordFileTest, WhatIsNoRecordFile) {
+  EXPECT_EQ(refusal(), "cannot be opened");
+  for (const std::string& content :
+       {std::string(), std::string("ISOPHRE"), std::string("\x89PNG\r\n\x1a\n and more")}) {
+    put(content);
+    EXPECT_EQ(refusal(), "is not a record file");
+  }
+  fs::remove(path_);
+  fs::create_directory(path_);
+  EXPECT_EQ(refusal(), "cannot be read");
+  EXPECT_THROW(write_records(path_, sample(1)), UserError);
+}
+
+TEST_F(RecordFileTest, MismatchesNameTheReason) {
+  const RecordFile file = sample(1);
+  const auto reason = [&](std::uint64_t scene, const std::string& settings) -> std::string {
+    try {
+      require_match("x.rec", file, scene, settings);
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(reason(file.scene, file.settings), "");
+  EXPECT_EQ(reason(file.scene + 1, file.settings), "x.rec: its records were made for another scene");
+  EXPECT_EQ(reason(file.scene, "method=bounded\na=0.3\nseed=8\n"),
+            "x.rec: its records were made with other settings: a=0.2 there, a=0.3 here");
+  EXPECT_EQ(reason(file.scene, "method=bounded\na=0.2\n"),
+            "x.rec: its records were made with other settings: seed=7 there, nothing here");
+  EXPECT_EQ(reason(file.scene, file.settings + "rays=800\n"),
+            "x.rec: its records were made with other settings: nothing there, rays=800 here");
+}
+
+}  // namespace
+}  // namespace isophote::test

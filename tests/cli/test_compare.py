@@ -1,0 +1,48 @@
+import json
+
+from program import BOX, QUICK, ProgramTest, png_size
+
+
+class Compare(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        for seed in ("1", "2"):
+            self.done("render", BOX, *QUICK, "--method", "path", "--seed", seed, "-o", seed + ".exr")
+
+    def measured(self, *arguments):
+        return json.loads(self.done("compare", *arguments, "--json").stdout)
+
+    def test_a_picture_is_its_own_equal(self):
+        for layer in ((), ("--layer", "irradiance"), ("--layer", "direct")):
+            same = self.measured("1.exr", "1.exr", *layer)
+            self.assertEqual(set(same), {"rmse", "relative_rmse", "relative_mse", "bias", "block_error", "ssim"})
+            self.assertEqual([same[k] for k in ("rmse", "relative_rmse", "relative_mse", "bias", "block_error")], [0] * 5)
+            self.assertAlmostEqual(same["ssim"], 1)
+
+    def test_blocks_average_noise_away(self):
+        whole, blocks = self.measured("1.exr", "2.exr"), self.measured("1.exr", "2.exr", "--block", "8")
+        self.assertGreater(whole["rmse"], 3 * blocks["rmse"])
+        self.assertAlmostEqual(whole["bias"], blocks["bias"], places=5)
+
+    def test_a_threshold_is_an_exit_code(self):
+        rmse = self.measured("1.exr", "2.exr")["relative_rmse"]
+        self.done("compare", "1.exr", "2.exr", "--fail-above", str(rmse * 1.01))
+        result = self.run_program("compare", "1.exr", "2.exr", "--fail-above", str(rmse * 0.99))
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stderr.count("\n"), 1)
+        self.assertEqual(self.run_program("compare", "1.exr", "1.exr", "--fail-above", "0").returncode, 0)
+
+    def test_the_error_picture(self):
+        self.done("compare", "1.exr", "2.exr", "--layer", "irradiance", "--error-picture", "error.png")
+        self.assertEqual(png_size(self.folder / "error.png"), (32, 32))
+
+    def test_what_cannot_be_compared(self):
+        self.refused(1, ("compare", "1.exr", "missing.exr"), "missing.exr")
+        self.refused(1, ("compare", "1.exr", "2.exr", "--layer", "nonsense"), "1.exr", "nonsense", "irradiance")
+        self.done("render", BOX, *QUICK, "--size", "16x16", "-o", "small.exr")
+        self.refused(1, ("compare", "1.exr", "small.exr"), "32", "16")
+        self.write("cut.exr", (self.folder / "1.exr").read_bytes()[:5000])
+        self.refused(1, ("compare", "cut.exr", "1.exr"), "cut.exr")
+        self.refused(1, ("compare", "1.exr", "2.exr", "--error-picture", "nowhere/e.png"), "nowhere/e.png")
+        self.refused(2, ("compare", "1.exr", "2.exr", "--block", "0"), "--block")
+        self.refused(2, ("compare", "1.exr", "2.exr", "--fail-above", "much"), "--fail-above")

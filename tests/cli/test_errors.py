@@ -1,0 +1,144 @@
+import os
+
+from program import BOX, QUICK, SCENES, ProgramTest
+
+METHODS = ("path", "ward1988", "ward1992", "bounded", "uniform", "cached")
+
+
+class BadUsage(ProgramTest):
+    def refused_render(self, flags, *mentions):
+        self.refused(2, ("render", BOX, *QUICK, "-o", "out.exr", *flags), *mentions)
+
+    def test_verbs_and_flags(self):
+        self.refused(2, ())
+        self.refused(2, ("rendr",))
+        self.refused(2, ("render",))
+        self.refused(2, ("render", BOX))
+        self.refused(2, ("compare", "a.exr"))
+        self.refused(2, ("methods", "extra"))
+        self.refused_render(("--nonsense", "1"), "--nonsense")
+        self.refused_render(("--spp",), "--spp")
+
+    def test_unknown_names_are_answered_with_the_known_ones(self):
+        self.refused_render(("--method", "ward2000"), "ward2000", *METHODS)
+        self.refused_render(("--estimator", "guess"), "guess", "irradiance", "ward-heckbert", "ward-heckbert-exact")
+        self.refused_render(("--metric", "guess"), "guess", "split-sphere", "bounded-split-sphere", "uniform")
+        self.refused_render(("--camera", "nowhere"), "nowhere", "published")
+
+    def test_combinations_that_do_not_exist(self):
+        self.refused_render(("--method", "bounded", "--estimator", "irradiance"), "irradiance", "gradient")
+        self.refused_render(("--metric", "split-sphere", "--min-pixels", "2"), "split-sphere", "bounded-split-sphere")
+        for flags in (("--metric", "uniform"), ("--estimator", "irradiance"), ("--records", "100"), ("--order", "lazy"),
+                      ("--save-cache", "c"), ("--load-cache", "c"), ("--show-records", "r.png")):
+            self.refused_render(("--method", "path", *flags), "path")
+        self.refused_render(("--secondary", "on", "--max-depth", "3"), "--max-depth")
+        self.refused_render(("--records", "100", "--order", "lazy"), "--records")
+        self.refused_render(("--records", "100", "--load-cache", "c"), "--records")
+        self.refused_render(("--records", "100", "--a", "0.1"), "--records")
+
+    def test_values(self):
+        for flag, values in {
+            "--size": ("10", "0x5", "5x0", "axb", "-4x4", "4x4x4", "99999x4", "4 x 4", ""),
+            "--spp": ("0", "-1", "1.5", "many", "1e99", ""),
+            "--error": ("0", "-1", "nan", "inf", "2%", ""),
+            "--a": ("0", "-1", "nan"),
+            "--rays": ("0", "1e12"),
+            "--records": ("0", "-5"),
+            "--max-depth": ("0", "-1"),
+            "--threads": ("-1", "x", "100000"),
+            "--seed": ("-1", "x", "0.5"),
+            "--secondary": ("maybe", ""),
+            "--order": ("random",),
+            "--progress": ("loud",),
+            "--exposure": ("bright",),
+            "--camera": ("1,2;3,4,5;40", "1,2,3;4,5,6", "1,2,3;1,2,3;40", "0,0,0;0,0,1;180", "9"),
+            "-o": ("out.jpg", "out", ""),
+            "--preview": ("p.exr",),
+            "--show-records": ("p.exr",),
+        }.items():
+            for value in values:
+                with self.subTest(flag=flag, value=value):
+                    self.refused_render((flag, value), flag)
+
+    def test_a_picture_that_does_not_fit_in_memory(self):
+        self.refused(1, ("render", BOX, "--size", "32768x32768", "-o", "out.exr"), "32768", "memory")
+
+
+class BadInput(ProgramTest):
+    def refused_scene(self, name, *mentions):
+        self.refused(1, ("render", name, *QUICK, "-o", "out.exr", "--stats", "stats.json"), *mentions)
+
+    def test_files_that_are_not_scenes(self):
+        self.refused_scene("missing.glb", "missing.glb")
+        self.refused_scene("missing.toml", "missing.toml")
+        for name in ("empty.glb", "empty.gltf", "empty.toml", "scene.txt"):
+            self.write(name, "")
+            self.refused_scene(name, name)
+        (self.folder / "folder.glb").mkdir()
+        self.refused_scene("folder.glb", "folder.glb")
+
+    def test_broken_gltf(self):
+        whole = open(BOX, "rb").read()
+        for size in (4, 12, 20, 100, len(whole) // 2, len(whole) - 1):
+            with self.subTest(size=size):
+                self.write("cut.glb", whole[:size])
+                self.refused_scene("cut.glb", "cut.glb")
+        self.write("harmed.glb", whole.replace(b'"POSITION"', b'"POSITIOM"'))
+        self.refused_scene("harmed.glb", "harmed.glb")
+
+    def test_scene_files(self):
+        scene = f'[scene]\nfile = "{BOX}"\n'
+        for text, line, mention in (
+            (scene + "[film]\nsizes = [4, 4]\n", 4, "sizes"),
+            (scene + "[film]\nsize = [4]\n", 4, "size"),
+            (scene + "[method]\nmethod = 'ward2000'\n", 4, "ward2000"),
+            (scene + "[method]\nsecondary = 7\n", 4, "secondary"),
+            (scene + "[method]\nsize = [4, 4]\n", 4, "size"),
+            (scene + "[films]\n", 3, "films"),
+            (scene + "[film\n", 3, ""),
+            ('[scene]\nfile = "nowhere.glb"\n', 2, "nowhere.glb"),
+            ('[film]\nspp = 1\n', 1, "scene"),
+        ):
+            with self.subTest(text=text):
+                self.write("bad.toml", text)
+                self.refused_scene("bad.toml", f"bad.toml:{line}: ", mention)
+
+    def test_record_files(self):
+        self.done("render", BOX, *QUICK, "--save-cache", "records", "--stats", "s.json")
+        for flags, mention in ((("--error", "0.04"), "a="), (("--rays", "60"), "gather="), (("--secondary", "off"), "secondary="),
+                               (("--method", "ward1992"), "estimator="), (("--max-radius", "1"), "max-radius=")):
+            with self.subTest(flags=flags):
+                self.refused(1, ("render", BOX, *QUICK, *flags, "--load-cache", "records", "-o", "o.exr"), "records: ", mention)
+        self.refused(1, ("render", str(SCENES / "sphere.glb"), *QUICK, "--load-cache", "records", "-o", "o.exr"),
+                     "records: ", "scene")
+        whole = (self.folder / "records").read_bytes()
+        harmed = bytearray(whole)
+        harmed[len(whole) // 2] ^= 1
+        for name, content in (("cut", whole[:-100]), ("harmed", bytes(harmed)), ("none", b"")):
+            self.write(name, content)
+            self.refused(1, ("render", BOX, *QUICK, "--load-cache", name, "-o", "o.exr"), name + ": ")
+        self.refused(1, ("render", BOX, *QUICK, "--load-cache", "missing", "-o", "o.exr"), "missing: ")
+
+    def test_the_older_picture_stays(self):
+        self.write("out.exr", "older")
+        self.write("cut.glb", open(BOX, "rb").read()[:1000])
+        self.refused_scene("cut.glb", "cut.glb")
+        self.assertEqual((self.folder / "out.exr").read_bytes(), b"older")
+
+
+class UnwritableOutput(ProgramTest):
+    """Said before hours of work, not after."""
+
+    def test_every_kind_of_output(self):
+        self.write("file", "")
+        (self.folder / "folder.exr").mkdir()
+        for flags in (("-o", "nowhere/out.exr"), ("-o", "nowhere/out.png"), ("-o", "file/out.exr"), ("-o", "folder.exr"),
+                      ("-o", "out.exr", "--stats", "nowhere/s.json"), ("-o", "out.exr", "--preview", "nowhere/p.png"),
+                      ("-o", "out.exr", "--show-records", "nowhere/r.png"), ("-o", "out.exr", "--save-cache", "nowhere/c")):
+            with self.subTest(flags=flags):
+                self.refused(1, ("render", BOX, *QUICK, *flags), flags[-1])
+
+    def test_a_full_disk(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("no /dev/full")
+        self.refused(1, ("render", BOX, *QUICK, "--stats", "/dev/full"), "/dev/full")

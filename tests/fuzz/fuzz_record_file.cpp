@@ -1,0 +1,53 @@
+// Reads any bytes as a record file, as they are and with a right checksum, and looks up in what was accepted.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "isophote/cache/record_cache.h"
+#include "isophote/cache/record_file.h"
+#include "isophote/core/error.h"
+#include "support/sign_record_file.h"
+
+namespace {
+
+using namespace isophote;
+
+std::string content(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// What was accepted can be indexed and looked up, and is written back as it was.
+void use(const std::string& path, const std::string& bytes) {
+  const RecordFile file = read_records(path);
+  RecordCache cache({{0, 0, 0}, {1, 1, 1}});
+  for (const Record& record : file.records) cache.insert(record);
+  for (const Record& record : file.records) cache.interpolate({record.position, record.normal, record.normal});
+  write_records(path, file);
+  if (content(path) != bytes) std::abort();
+}
+
+void read(const std::string& bytes) {
+  static const std::string path =
+      (std::filesystem::temp_directory_path() / ("fuzz_record_file." + std::to_string(getpid()))).string();
+  std::ofstream(path, std::ios::binary) << bytes;
+  try {
+    use(path, bytes);
+  } catch (const UserError&) {
+  }
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  read(bytes);
+  if (size >= 8) read(isophote::test::sign_record_file(bytes));
+  return 0;
+}
