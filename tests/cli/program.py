@@ -11,8 +11,12 @@ from pathlib import Path
 PROGRAM = os.environ["ISOPHOTE_PROGRAM"]
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 BOX = str(SCENES / "cornell-box.glb")
-# A picture within a second.
-QUICK = ("--size", "32x32", "--spp", "2", "--rays", "50", "--error", "0.05")
+
+
+def quick(*flags):
+    """Flags of a picture within a second, where `flags` say nothing else."""
+    defaults = {"--size": "32x32", "--spp": "2", "--rays": "50", "--error": "0.05"}
+    return [part for pair in defaults.items() if pair[0] not in flags for part in pair] + list(flags)
 
 
 def picture_channels(path):

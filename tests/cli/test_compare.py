@@ -1,13 +1,13 @@
 import json
 
-from program import BOX, QUICK, ProgramTest, png_size
+from program import BOX, quick, ProgramTest, png_size
 
 
 class Compare(ProgramTest):
     def setUp(self):
         super().setUp()
         for seed in ("1", "2"):
-            self.done("render", BOX, *QUICK, "--method", "path", "--seed", seed, "-o", seed + ".exr")
+            self.done("render", BOX, *quick("--method", "path", "--seed", seed, "-o", seed + ".exr"))
 
     def measured(self, *arguments):
         return json.loads(self.done("compare", *arguments, "--json").stdout)
@@ -39,7 +39,7 @@ class Compare(ProgramTest):
     def test_what_cannot_be_compared(self):
         self.refused(1, ("compare", "1.exr", "missing.exr"), "missing.exr")
         self.refused(1, ("compare", "1.exr", "2.exr", "--layer", "nonsense"), "1.exr", "nonsense", "irradiance")
-        self.done("render", BOX, *QUICK, "--size", "16x16", "-o", "small.exr")
+        self.done("render", BOX, *quick("--size", "16x16", "-o", "small.exr"))
         self.refused(1, ("compare", "1.exr", "small.exr"), "32", "16")
         self.write("cut.exr", (self.folder / "1.exr").read_bytes()[:5000])
         self.refused(1, ("compare", "cut.exr", "1.exr"), "cut.exr")

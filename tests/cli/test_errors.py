@@ -1,13 +1,13 @@
 import os
 
-from program import BOX, QUICK, SCENES, ProgramTest
+from program import BOX, quick, SCENES, ProgramTest
 
 METHODS = ("path", "ward1988", "ward1992", "bounded", "uniform", "cached")
 
 
 class BadUsage(ProgramTest):
     def refused_render(self, flags, *mentions):
-        self.refused(2, ("render", BOX, *QUICK, "-o", "out.exr", *flags), *mentions)
+        self.refused(2, ("render", BOX, *quick("-o", "out.exr", *flags)), *mentions)
 
     def test_verbs_and_flags(self):
         self.refused(2, ())
@@ -66,7 +66,7 @@ class BadUsage(ProgramTest):
 
 class BadInput(ProgramTest):
     def refused_scene(self, name, *mentions):
-        self.refused(1, ("render", name, *QUICK, "-o", "out.exr", "--stats", "stats.json"), *mentions)
+        self.refused(1, ("render", name, *quick("-o", "out.exr", "--stats", "stats.json")), *mentions)
 
     def test_files_that_are_not_scenes(self):
         self.refused_scene("missing.glb", "missing.glb")
@@ -104,20 +104,20 @@ class BadInput(ProgramTest):
                 self.refused_scene("bad.toml", f"bad.toml:{line}: ", mention)
 
     def test_record_files(self):
-        self.done("render", BOX, *QUICK, "--save-cache", "records", "--stats", "s.json")
+        self.done("render", BOX, *quick("--save-cache", "records", "--stats", "s.json"))
         for flags, mention in ((("--error", "0.04"), "a="), (("--rays", "60"), "gather="), (("--secondary", "off"), "secondary="),
                                (("--method", "ward1992"), "estimator="), (("--max-radius", "1"), "max-radius=")):
             with self.subTest(flags=flags):
-                self.refused(1, ("render", BOX, *QUICK, *flags, "--load-cache", "records", "-o", "o.exr"), "records: ", mention)
-        self.refused(1, ("render", str(SCENES / "sphere.glb"), *QUICK, "--load-cache", "records", "-o", "o.exr"),
+                self.refused(1, ("render", BOX, *quick(*flags, "--load-cache", "records", "-o", "o.exr")), "records: ", mention)
+        self.refused(1, ("render", str(SCENES / "sphere.glb"), *quick("--load-cache", "records", "-o", "o.exr")),
                      "records: ", "scene")
         whole = (self.folder / "records").read_bytes()
         harmed = bytearray(whole)
         harmed[len(whole) // 2] ^= 1
         for name, content in (("cut", whole[:-100]), ("harmed", bytes(harmed)), ("none", b"")):
             self.write(name, content)
-            self.refused(1, ("render", BOX, *QUICK, "--load-cache", name, "-o", "o.exr"), name + ": ")
-        self.refused(1, ("render", BOX, *QUICK, "--load-cache", "missing", "-o", "o.exr"), "missing: ")
+            self.refused(1, ("render", BOX, *quick("--load-cache", name, "-o", "o.exr")), name + ": ")
+        self.refused(1, ("render", BOX, *quick("--load-cache", "missing", "-o", "o.exr")), "missing: ")
 
     def test_the_older_picture_stays(self):
         self.write("out.exr", "older")
@@ -136,9 +136,9 @@ class UnwritableOutput(ProgramTest):
                       ("-o", "out.exr", "--stats", "nowhere/s.json"), ("-o", "out.exr", "--preview", "nowhere/p.png"),
                       ("-o", "out.exr", "--show-records", "nowhere/r.png"), ("-o", "out.exr", "--save-cache", "nowhere/c")):
             with self.subTest(flags=flags):
-                self.refused(1, ("render", BOX, *QUICK, *flags), flags[-1])
+                self.refused(1, ("render", BOX, *quick(*flags)), flags[-1])
 
     def test_a_full_disk(self):
         if not os.path.exists("/dev/full"):
             self.skipTest("no /dev/full")
-        self.refused(1, ("render", BOX, *QUICK, "--stats", "/dev/full"), "/dev/full")
+        self.refused(1, ("render", BOX, *quick("--stats", "/dev/full")), "/dev/full")

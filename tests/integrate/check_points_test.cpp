@@ -53,9 +53,10 @@ TEST(CheckPoints, InAFurnaceMeasureNoMoreThanNoise) {
   const MeasuredError error = check_points(job, cache, 4000000);
   EXPECT_GT(error.noise, 0);
   EXPECT_LT(error.noise, 0.02);
-  // The mean of |normal| is 0.8 standard errors. Half the squared difference of neighbours is their variance where, as
-  // here, the mean does not change, so that the estimate of the noise is itself unbiased.
-  EXPECT_NEAR(error.mean, 0.8 * error.noise, 0.25 * error.noise);
+  // The mean of |normal| is 0.8 standard errors. The estimate of the noise takes samples as independent; they are
+  // stratified, and err less.
+  EXPECT_LT(error.mean, 0.8 * error.noise);
+  EXPECT_GT(error.mean, 0.2 * error.noise);
   EXPECT_LT(std::abs(error.bias), 4.5 * error.noise / std::sqrt(error.points));
 }
 

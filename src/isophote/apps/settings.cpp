@@ -114,6 +114,7 @@ Method chosen_method(const RenderSettings& s) {
       throw UsageError("method 'path' caches nothing: it takes no estimator, metric, number of records or order");
     return method;
   }
+  if (s.lazy && s.records) throw UsageError("--records solves by building in rounds: leave out --order lazy");
   if (!s.estimator.empty()) method.estimator = &find_estimator(s.estimator);
   if (!s.metric.empty()) {
     method.metric = &find_metric(s.metric);

@@ -1,0 +1,102 @@
+"""The other sections of docs/benchmarks.md."""
+import json
+import statistics
+import subprocess
+
+from measure import ATRIUM, BUILD, CORNELL, ROOT, View, cost, measured, percent, render, table
+from plot import log_log
+
+REPEATS = 5
+
+
+def median(values):
+    return statistics.median(values)
+
+
+def records():
+    """Error against records and against rays per record, secondary caching on and off."""
+    by_records, by_rays, series = [], [], {}
+    for secondary in ("on", "off"):
+        curve = []
+        for number in (500, 1000, 2000, 4000, 8000):
+            stats, errors = measured(CORNELL, "--secondary", secondary, "--records", number, "--spp", 16)
+            e = errors["irradiance"]
+            by_records.append([secondary, stats["records"], f"{stats['parameters']['a']:.3f}", percent(e["relative_rmse"]),
+                               percent(e["block_error"]), f"{100 * e['bias']:+.2f}"])
+            curve.append((stats["records"], e["relative_rmse"]))
+        series[f"secondary {secondary}"] = curve
+        for rays in (200, 400, 800, 1600, 3200):
+            stats, errors = measured(CORNELL, "--secondary", secondary, "--a", 0.2, "--rays", rays, "--spp", 16)
+            e = errors["irradiance"]
+            by_rays.append([secondary, rays, stats["records"], f"{cost(stats):.1f}", percent(e["relative_rmse"]),
+                            percent(e["block_error"]), f"{100 * e['bias']:+.2f}"])
+    log_log(ROOT / "docs" / "figures" / "error-records.svg", "cornell-box: RMSE over records", "records", "relative RMSE", series)
+    return ("## Error against records and rays\n\nCornell box, method `cached`, 800 rays a record:\n\n" +
+            table(["secondary", "records", "a", "RMSE %", "block %", "bias %"], by_records) +
+            "\n\n![RMSE over records](figures/error-records.svg)\n\nThe same at a = 0.2, by rays per record:\n\n" +
+            table(["secondary", "rays", "records", "CPU s", "RMSE %", "block %", "bias %"], by_rays))
+
+
+def order():
+    """Surplus records of the rounds over the lazy order."""
+    rows = []
+    for view in (CORNELL, ATRIUM):
+        for method in ("ward1992", "cached"):
+            found = {name: render(view, "--method", method, "--a", 0.3, "--rays", 200, "--secondary", "off", "--spp", 1, "--no-check",
+                                  "--order", name)["records"] for name in ("rounds", "lazy")}
+            rows.append([view.name, method, found["rounds"], found["lazy"], f"{100 * (found['rounds'] / found['lazy'] - 1):+.1f}"])
+    return ("## Surplus records of the rounds over Ward's order\n\na = 0.3, 200 rays, one sample a pixel:\n\n" +
+            table(["scene", "method", "rounds", "lazy", "surplus %"], rows))
+
+
+def scaling():
+    """Threads and pixels."""
+    rows = []
+    for view in (CORNELL, ATRIUM):
+        growth, speedup, serial = [], [], []
+        for _ in range(REPEATS):
+            one, two = (render(view, "--threads", n, "--no-check", "--spp", 16, "--a", 0.3, "--rays", 400) for n in (1, 2))
+            growth.append(cost(two) / cost(one) - 1)
+            wall = [s["wall_seconds"]["build"] + s["wall_seconds"]["final"] for s in (one, two)]
+            speedup.append(wall[0] / wall[1])
+            serial.append(2 * wall[1] / wall[0] - 1)  # Amdahl's law for two threads
+        rows.append([view.name, f"{100 * median(growth):+.1f}", f"{median(speedup):.2f}", f"{100 * median(serial):.1f}"])
+    pixels = []
+    for view in (CORNELL, ATRIUM):
+        width, height = map(int, view.size.split("x"))
+        small, large = (render(View(view.name, view.scene.name, f"{width * s}x{height * s}", 0), "--no-check", "--spp", 1)["records"]
+                        for s in (1, 2))
+        pixels.append([view.name, small, large, f"{large / small:.2f}"])
+    return (f"## Threads and pixels\n\nCPU growth and wall ratio from 1 to 2 threads, medians of {REPEATS} pairs; the serial share is what "
+            "Amdahl's law makes of the wall ratio, waiting for a busy machine included:\n\n" +
+            table(["scene", "CPU growth %", "wall ratio", "serial share %"], rows) +
+            "\n\nRecords of `cached` at the default error, by picture size:\n\n" +
+            table(["scene", "records", "records at 4x the pixels", "ratio"], pixels))
+
+
+def rays():
+    """Throughput beside the bare Embree loop."""
+    rows = []
+    for view in (CORNELL, ATRIUM):
+        out = subprocess.run([str(ROOT / "build" / "release" / "bench_rays"), str(view.scene)], check=True, capture_output=True, text=True)
+        for name, value in json.loads(out.stdout).items():
+            rows.append([view.name, name, f"{value['million_rays_per_second']:.2f}", f"{100 * value['of_bare']:.0f}"])
+    return ("## Rays per CPU second beside bare Embree\n\nOne thread. *bare* casts camera rays and three cosine bounces, each with a shadow ray, and "
+            "does nothing else; *gather* reads cached radiance where it hits, *gather_paths* follows paths; *final* looks up the cache. Medians of "
+            "7 rounds; the share is paired within each round:\n\n" +
+            table(["scene", "part", "million rays a CPU second", "% of bare"], rows))
+
+
+def memory():
+    """Peak memory."""
+    rows = []
+    large = BUILD / "two-million" / "atrium.glb"
+    if not large.exists():
+        subprocess.run([str(ROOT / "tools" / "make-scenes"), "atrium", "--triangles", "2000000", "--output", str(large.parent)], check=True)
+    for name, scene, size in (("cornell-box", CORNELL.scene, "512x512"), ("atrium", ATRIUM.scene, "512x320"),
+                              ("atrium, 2 million triangles", large, "512x320")):
+        stats = render(View(name, scene, size, 0), "--no-check", "--spp", 1, "--a", 0.4, "--rays", 200)
+        rows.append([name, stats["triangles"], stats["records"], f"{stats['peak_memory_bytes'] / 1e6:.0f}",
+                     f"{stats['cpu_seconds']['load']:.1f}"])
+    return ("## Peak memory\n\nMethod `cached`, a = 0.4, 200 rays:\n\n" +
+            table(["scene", "triangles", "records", "MB", "loading, CPU s"], rows))
