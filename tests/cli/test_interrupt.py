@@ -54,7 +54,8 @@ class Interrupt(ProgramTest):
         self.write("out.exr", "older")
         # One round takes minutes, so that the first signal finds no ear.
         process = self.start("render", BOX, "--size", "64x64", "--rays", "16000000", *OUTPUTS)
-        self.wait_for(process, "load")
+        self.wait_for(process, "build")
+        time.sleep(1)
         process.send_signal(signal.SIGINT)
         time.sleep(0.5)
         self.assertIsNone(process.poll())

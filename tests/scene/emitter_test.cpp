@@ -48,7 +48,7 @@ void expect_sampling_follows_pdf(const Scene& scene, const Vec3& from, Among amo
         disagree += !(std::abs(s.pdf / density(scene, emitters, from, s.direction, among) - 1) < 1e-3);
         return s.direction;
       },
-      [&](const Vec3& d) { return density(scene, emitters, from, d, among); }, 50000, 96);
+      [&](const Vec3& d) { return density(scene, emitters, from, d, among); }, 40000, 64);
   EXPECT_LE(disagree, 10);
 }
 

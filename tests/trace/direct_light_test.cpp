@@ -179,7 +179,7 @@ TEST(DirectLight, GlossyRayAndIrradianceMakeUpScatter) {
   Stage stage(scene);
   const Vec3 wo = normalize(Vec3{-0.5f, 0.7f, 0.4f});
   const SurfacePoint point = stage.hit(Vec3{0.2f, 0, 0.8f} + wo * 0.1f, -wo);
-  Estimate whole, parts, irradiance;
+  Estimate whole, parts;
   for (int i = 0; i < 200000; ++i) {
     Sampler a = test_sampler(1, i), b = test_sampler(2, i);
     const Scattered s = scatter(stage.world, point, wo, 0, a, stage.counts);

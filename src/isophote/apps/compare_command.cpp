@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "isophote/apps/commands.h"
+#include "isophote/core/error.h"
 #include "isophote/image/exr.h"
 #include "isophote/image/false_colour.h"
 #include "isophote/image/metrics.h"
@@ -12,8 +13,13 @@ namespace isophote::app {
 namespace {
 
 RgbImage read_layer(const std::string& path, const std::string& layer, int block) {
-  const RgbImage image = read_exr(path).rgb(layer);
-  return block > 1 ? block_average(image, block) : image;
+  const ExrFile file = read_exr(path);
+  try {
+    const RgbImage image = file.rgb(layer);
+    return block > 1 ? block_average(image, block) : image;
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("{}: {}", path, error.what()));
+  }
 }
 
 }  // namespace

@@ -31,8 +31,8 @@ void check_request(const RenderRequest& request) {
   for (const std::string& output : request.outputs)
     if (!ends_with(output, ".exr") && !ends_with(output, ".png"))
       throw UsageError(fmt::format("-o {}: the name must end in .exr or .png", output));
-  for (const std::string& png : {request.preview, request.records_picture})
-    if (!png.empty() && !ends_with(png, ".png")) throw UsageError(fmt::format("{}: the name must end in .png", png));
+  for (const auto& [flag, png] : {std::pair{"--preview", request.preview}, {"--show-records", request.records_picture}})
+    if (!png.empty() && !ends_with(png, ".png")) throw UsageError(fmt::format("{} {}: the name must end in .png", flag, png));
 }
 
 /// Flags win over the scene file, the scene file over defaults.
@@ -173,6 +173,7 @@ class Rendering {
       report = build_in_rounds(*job_, cache);
     }
     statistics_.rounds = report.rounds;
+    statistics_.passes = report.passes;
     statistics_.rays += report.rays;
     statistics_.cancelled = report.cancelled;
   }

@@ -44,6 +44,7 @@ void Statistics::write_json(const std::string& path) const {
             {"uncovered", uncovered},
             {"samples", samples},
             {"rounds", rounds},
+            {"passes", passes},
             {"rays",
              {{"camera", rays.camera}, {"shadow", rays.shadow}, {"gather", rays.gather}, {"path", rays.path},
               {"check", rays.check}, {"total", rays.total()}}},

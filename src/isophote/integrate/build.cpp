@@ -38,6 +38,7 @@ class Builder {
   Builder(const Job& job, RecordCache& cache) : job_(job), cache_(cache) {}
 
   BuildReport run() {
+    job_.progress.tell("build", 0);
     int stride = 1;
     while (stride * 16 <= std::min(job_.width, job_.height) && stride < 64) stride *= 2;
     for (double done = 0; stride > 1 && !report_.cancelled; stride /= 2, done += 0.1) {
@@ -47,7 +48,8 @@ class Builder {
     }
     const double pixels = static_cast<double>(job_.width) * job_.height;
     for (int pass = 0; pass < most_passes && !report_.cancelled; ++pass) {
-      std::vector<Candidate> left = uncovered(1, pass);
+      std::vector<Candidate> left = uncovered(1, pass % job_.samples);
+      ++report_.passes;
       const bool enough = static_cast<double>(left.size()) < good_coverage * pixels;
       cover(std::move(left));
       if (enough) break;

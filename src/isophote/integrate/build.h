@@ -8,6 +8,7 @@ namespace isophote {
 /// What building a cache took.
 struct BuildReport {
   std::size_t rounds = 0;
+  int passes = 0;  ///< over all pixels, each through another sample of them
   RayCounts rays;
   bool cancelled = false;
 };

@@ -155,7 +155,7 @@ class PrimitiveReader {
       const std::string name = "TEXCOORD_" + std::to_string(set);
       if (!wanted[set]) continue;
       if (!has(name)) {
-        context_.warn(place_ + ": lacks " + name + ", which its material needs: textures are read at (0, 0)");
+        context_.warn(place_ + ": lacks " + name + ", which its material needs: those textures are left out");
         continue;
       }
       const AccessorReader reader = attribute(name, {TINYGLTF_TYPE_VEC2}, Components::floats_or_unorm);

@@ -38,9 +38,11 @@ struct FirstPoint {
   int depth = 0;  ///< specular events on the way
 };
 
-/// Follows `ray` to its first non-specular point. `emission` counts directly sampled emitters (lamps, the environment's
-/// peaks) met before any specular event only where `see_lamps`; whatever is met after one counts always (no light
-/// sample could have found it). `kind` is the counter to charge.
+/// Follows `ray` to its first non-specular point. A surface with specular and other lobes is passed or stopped at by
+/// chance, which `throughput` makes up for: what scatters at the point is its diffuse and glossy lobes. `emission`
+/// counts directly sampled emitters (lamps, the environment's peaks) met before any specular event only where
+/// `see_lamps`; whatever is met after one counts always (no light sample could have found it). `kind` is the counter to
+/// charge.
 FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind);
 
 /// Light scattered at a point towards `wo`, split as the project defines it: `direct` from directly sampled emitters
