@@ -15,8 +15,8 @@ using statistics::expect_mean;
 Scene slab(const Material& glass) {
   Scene scene;
   scene.meshes.push_back(scenes::box({-9, -9, 0}, {9, 9, 1}, false, scenes::add(scene, glass)));
-  scene.meshes.push_back(scenes::quad({-9, -9, -2}, {18, 0, 0}, {0, 18, 0},
-                                      scenes::add(scene, scenes::emissive(Rgb(0.0f), Rgb(1.0f)))));
+  scene.meshes.push_back(
+      scenes::quad({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}, scenes::add(scene, scenes::emissive(Rgb(0.0f), Rgb(1.0f)))));
   return scene;
 }
 
@@ -77,8 +77,8 @@ TEST(Specular, AbsorptionReachesWhatIsInsideTheGlass) {
   glass.attenuation_distance = 1;
   Scene scene;
   scene.meshes.push_back(scenes::box({-9, -9, 0}, {9, 9, 1}, false, scenes::add(scene, glass)));
-  scene.meshes.push_back(scenes::quad({-8, -8, 0.5f}, {16, 0, 0}, {0, 16, 0},
-                                      scenes::add(scene, scenes::emissive(Rgb(0.0f), Rgb(1.0f)))));
+  scene.meshes.push_back(
+      scenes::quad({-8, -8, 0.5f}, {16, 0, 0}, {0, 16, 0}, scenes::add(scene, scenes::emissive(Rgb(0.0f), Rgb(1.0f)))));
   Stage stage(scene);
   Estimate e;
   for (int i = 0; i < 50000; ++i) {

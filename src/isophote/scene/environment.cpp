@@ -60,11 +60,13 @@ Environment::Environment(const EnvironmentMap& map) : map_(map) {
 
 Vec2 Environment::point(const Vec3& direction) const {
   const float turn = (std::atan2(direction.x, -direction.z) + map_.rotation) / (2 * pi) + 0.5f;
-  return {std::min(turn - std::floor(turn), 0x1.fffffep-1f), std::atan2(std::hypot(direction.x, direction.z), direction.y) / pi};
+  return {std::min(turn - std::floor(turn), 0x1.fffffep-1f),
+          std::atan2(std::hypot(direction.x, direction.z), direction.y) / pi};
 }
 
 Vec3 Environment::direction(Vec2 point) const {
-  const float azimuth = 2 * pi * (point.x - 0.5f) - map_.rotation, theta = pi * point.y, s = std::sin(pi * std::min(point.y, 1 - point.y));
+  const float azimuth = 2 * pi * (point.x - 0.5f) - map_.rotation, theta = pi * point.y,
+              s = std::sin(pi * std::min(point.y, 1 - point.y));
   return {s * std::sin(azimuth), std::cos(theta), -s * std::cos(azimuth)};
 }
 

@@ -49,7 +49,8 @@ inline Vec3 sample_visible_normal(const Vec3& o, float alpha, Vec2 u) {
   return sample_visible_normal(o, alpha, u.x, u.y);
 }
 
-/// Directional albedo of the lobe under Schlick's Fresnel term: f0 * .f0 + f90 * .f90. From a table, to about 1e-3 but at the most grazing angles.
+/// Directional albedo of the lobe under Schlick's Fresnel term: f0 * .f0 + f90 * .f90. From a table, to about 1e-3 but
+/// at the most grazing angles.
 struct SplitSum {
   float f0 = 0, f90 = 0;
 };
