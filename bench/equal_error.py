@@ -6,7 +6,7 @@ SAMPLES = 16
 PATH_SAMPLES = (16, 64)
 # Thresholds and gather rays of the cached renders: a walk along the lower envelope of error over cost.
 SETTINGS = {"cornell-box": ((0.4, 200), (0.3, 400), (0.3, 800), (0.2, 800), (0.2, 1600), (0.2, 3200), (0.14, 3200)),
-            "atrium": ((0.4, 200), (0.3, 200), (0.2, 200), (0.2, 400), (0.15, 400), (0.15, 800))}
+            "atrium": ((0.4, 200), (0.3, 200), (0.4, 400), (0.3, 400), (0.4, 800), (0.3, 800), (0.2, 800), (0.3, 1600))}
 MEASURES = (("RMSE", "relative_rmse"), ("block", "block_error"))
 
 

@@ -1,5 +1,5 @@
-// Rays per CPU second of path tracing, gathering and the final pass, beside a bare Embree loop that casts the same kinds of rays and does nothing
-// else. One thread, repeated in turn, medians. Prints JSON.
+// Rays per CPU second of path tracing, gathering and the final pass, beside a bare Embree loop that casts the same
+// kinds of rays and does nothing else. One thread, repeated in turn, medians. Prints JSON.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
@@ -23,11 +23,11 @@ class BareScene {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     for (const Mesh& mesh : scene.meshes) {
       const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-      auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                  sizeof(Vec3), mesh.positions.size()));
+      auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
+          geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.positions.size()));
       std::copy(mesh.positions.begin(), mesh.positions.end(), vertices);
-      auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
-          geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
+      auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(
+          rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
       std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
       rtcCommitGeometry(geometry);
       rtcAttachGeometry(scene_, geometry);
@@ -43,8 +43,18 @@ class BareScene {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit query{};
-    query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, ray.direction.x, ray.direction.y, ray.direction.z,
-                 0, ray.far, ~0u, 0, 0};
+    query.ray = {ray.origin.x,
+                 ray.origin.y,
+                 ray.origin.z,
+                 ray.near,
+                 ray.direction.x,
+                 ray.direction.y,
+                 ray.direction.z,
+                 0,
+                 ray.far,
+                 ~0u,
+                 0,
+                 0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
@@ -56,8 +66,18 @@ class BareScene {
   bool occluded(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRay query{ray.origin.x, ray.origin.y, ray.origin.z, ray.near, ray.direction.x, ray.direction.y, ray.direction.z,
-                 0, ray.far, ~0u, 0, 0};
+    RTCRay query{ray.origin.x,
+                 ray.origin.y,
+                 ray.origin.z,
+                 ray.near,
+                 ray.direction.x,
+                 ray.direction.y,
+                 ray.direction.z,
+                 0,
+                 ray.far,
+                 ~0u,
+                 0,
+                 0};
     rtcOccluded1(scene_, &context, &query);
     return query.tfar < 0;
   }
@@ -67,7 +87,8 @@ class BareScene {
   RTCScene scene_;
 };
 
-/// Camera rays and cosine bounces from where they land, each followed by a shadow ray to a fixed point: as many of each as a path has.
+/// Camera rays and cosine bounces from where they land, each followed by a shadow ray to a fixed point: as many of each
+/// as a path has.
 std::uint64_t bare_loop(const Job& job, const BareScene& bare, const Vec3& light, int bounces) {
   std::uint64_t rays = 0;
   const float offset = 1e-5f * job.world.rays.scene_scale();
@@ -145,8 +166,8 @@ int run(const char* path, int repeats) {
   for (const Series& s : all) {
     std::vector<double> ratios;
     for (int i = 0; i < repeats; ++i) ratios.push_back(s.rates[i] / all[0].rates[i]);
-    fmt::print("{}\"{}\": {{\"million_rays_per_second\": {:.3f}, \"of_bare\": {:.3f}}}", &s == all.data() ? "" : ", ", s.name,
-               median(s.rates), median(ratios));
+    fmt::print("{}\"{}\": {{\"million_rays_per_second\": {:.3f}, \"of_bare\": {:.3f}}}", &s == all.data() ? "" : ", ",
+               s.name, median(s.rates), median(ratios));
   }
   fmt::print("}}\n");
   return 0;

@@ -117,7 +117,7 @@ class ProgramTest(unittest.TestCase):
         return process
 
     def stats(self, *arguments):
-        """The statistics of a quick render; later arguments win over the quick ones."""
+        """The statistics of a render that must succeed."""
         self.done("render", *arguments, "--stats", "stats.json")
         return json.loads((self.folder / "stats.json").read_text(encoding="utf-8"))
 

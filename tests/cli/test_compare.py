@@ -1,6 +1,6 @@
 import json
 
-from program import BOX, quick, ProgramTest, png_size
+from program import BOX, ProgramTest, png_size, quick
 
 
 class Compare(ProgramTest):

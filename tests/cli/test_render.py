@@ -5,7 +5,7 @@ import re
 import select
 import subprocess
 
-from program import BOX, PROGRAM, quick, SCENES, ProgramTest, picture_channels, png_size
+from program import BOX, PROGRAM, SCENES, ProgramTest, picture_channels, png_size, quick
 
 LAYERS = {"R", "G", "B", "A", "depth.Z", "normal.X", "normal.Y", "normal.Z"} | {
     f"{layer}.{c}" for layer in ("direct", "indirect", "irradiance", "albedo") for c in "RGB"}

@@ -109,7 +109,8 @@ TEST(LazyOrder, CoversEverythingWithAboutTheRecordsOfRounds) {
     EXPECT_EQ(lazy.build_rays.camera, 0u);
     // One gather ray a stratum, and those that go on through mirrors, of which there are none here.
     EXPECT_EQ(lazy.build_rays.gather, cache.records().size() * static_cast<std::size_t>(job.strata.size()));
-    const double surplus = static_cast<double>(rounds.cache.records().size()) / static_cast<double>(cache.records().size());
+    const double surplus =
+        static_cast<double>(rounds.cache.records().size()) / static_cast<double>(cache.records().size());
     std::printf("%s: rounds have %.3f times the records of the lazy order\n", name, surplus);
     // Rounds cover more than the samples taken here, the lazy order just these; how much more is a bench's to say.
     EXPECT_GT(surplus, 0.7);

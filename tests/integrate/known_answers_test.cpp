@@ -15,9 +15,7 @@ const Rgb albedo{0.2f, 0.5f, 0.7f}, emitted{3, 2, 1};
 
 /// In a closed room of one material radiance is e / (1 - a) everywhere. Light that the walls emit is direct light where
 /// it first falls; what is left of the irradiance is pi (e / (1 - a) - e) = pi e a / (1 - a).
-double furnace_irradiance(int channel) {
-  return M_PI * emitted[channel] * albedo[channel] / (1 - albedo[channel]);
-}
+double furnace_irradiance(int channel) { return M_PI * emitted[channel] * albedo[channel] / (1 - albedo[channel]); }
 
 Stage furnace() { return Stage(scenes::room(scenes::emissive(albedo, emitted))); }
 
@@ -77,12 +75,12 @@ Scene radiance_one_room() {
     m.double_sided = true;
     return scenes::add(scene, m);
   };
-  scene.meshes = {scenes::box({-1, -1, -1}, {1, 1, 1}, true, closed({0.8f, 0.6f, 0.4f})),
-                  scenes::box({-0.8f, -1, -0.5f}, {-0.2f, 0.2f, 0.1f}, false, closed({0.1f, 0.3f, 0.9f})),
-                  scenes::quad({0.2f, -1, -0.7f}, {0.7f, 0.1f, 0.2f}, {0, 1.2f, 0.1f},
-                               scenes::add(scene, scenes::metal(Rgb(1), 0))),
-                  scenes::box({0.1f, -0.95f, -0.1f}, {0.5f, -0.55f, 0.3f}, false,
-                              scenes::add(scene, scenes::glass(1.5f)))};
+  scene.meshes = {
+      scenes::box({-1, -1, -1}, {1, 1, 1}, true, closed({0.8f, 0.6f, 0.4f})),
+      scenes::box({-0.8f, -1, -0.5f}, {-0.2f, 0.2f, 0.1f}, false, closed({0.1f, 0.3f, 0.9f})),
+      scenes::quad({0.2f, -1, -0.7f}, {0.7f, 0.1f, 0.2f}, {0, 1.2f, 0.1f},
+                   scenes::add(scene, scenes::metal(Rgb(1), 0))),
+      scenes::box({0.1f, -0.95f, -0.1f}, {0.5f, -0.55f, 0.3f}, false, scenes::add(scene, scenes::glass(1.5f)))};
   scene.cameras.push_back(Camera::look_at({0, 0, 0.95f}, {0, -0.3f, 0}, 1.3f));
   return scene;
 }

@@ -80,8 +80,12 @@ TEST(SceneHash, SeesWhateverDecidesLightAndNoCamera) {
       [](Scene& s) { std::swap(s.meshes[3].triangles[0][0], s.meshes[3].triangles[0][1]); },
       [](Scene& s) { s.meshes[3].material = 0; },
       [](Scene& s) { s.meshes.pop_back(); },
-      [](Scene& s) { s.meshes[0].normals.assign(4, Vec3{0, 1, 0}); },
-      [](Scene& s) { s.meshes[0].colors.assign(4, Rgba{Rgb(0.5f), 1}); },
+      [](Scene& s) {
+        s.meshes[0].normals.assign(4, Vec3{0, 1, 0});
+      },
+      [](Scene& s) {
+        s.meshes[0].colors.assign(4, Rgba{Rgb(0.5f), 1});
+      },
       [](Scene& s) { s.materials[0].base_color.g = 0.72f; },
       [](Scene& s) { s.materials[0].roughness = 0.9f; },
       [](Scene& s) { s.materials[3].emission.b = 4.1f; },
@@ -89,7 +93,9 @@ TEST(SceneHash, SeesWhateverDecidesLightAndNoCamera) {
       [](Scene& s) { s.materials[0].alpha = Alpha::mask; },
       [](Scene& s) { s.lights.emplace_back(); },
       [](Scene& s) { s.environment.radiance = RgbImage(2, 1, Rgb(1)); },
-      [](Scene& s) { s.textures.emplace_back().rgba = {255, 255, 255, 255}; },
+      [](Scene& s) {
+        s.textures.emplace_back().rgba = {255, 255, 255, 255};
+      },
   };
   std::vector<std::uint64_t> seen{hash};
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -114,10 +120,14 @@ TEST(RecordPicture, DrawsADotAtEachRecordAndARimAroundIt) {
   const RgbImage picture = record_picture(job, cache);
   int dot_pixels = 0, coloured = 0, filled = 0, black = 0;
   for (const Rgb& p : picture.pixels) {
-    if (p == Rgb(1)) ++dot_pixels;
-    else if (p.r == p.g && p.g == p.b && p.r > 0) ++filled;
-    else if (is_black(p)) ++black;
-    else ++coloured;
+    if (p == Rgb(1))
+      ++dot_pixels;
+    else if (p.r == p.g && p.g == p.b && p.r > 0)
+      ++filled;
+    else if (is_black(p))
+      ++black;
+    else
+      ++coloured;
   }
   EXPECT_EQ(picture.at(64, 64), Rgb(1));
   EXPECT_GT(dot_pixels, 3);

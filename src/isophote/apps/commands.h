@@ -10,13 +10,13 @@ namespace isophote::app {
 /// What `isophote render` was asked for.
 struct RenderRequest {
   std::string scene;
-  std::vector<std::string> outputs;                          ///< .exr or .png
-  std::string stats, preview, records_picture;               ///< files; empty: none
+  std::vector<std::string> outputs;             ///< .exr or .png
+  std::string stats, preview, records_picture;  ///< files; empty: none
   std::string save_cache, load_cache;
-  std::string progress;                                      ///< bar, json, none; empty: bar on a terminal
-  int threads = 0;                                           ///< 0: all
+  std::string progress;  ///< bar, json, none; empty: bar on a terminal
+  int threads = 0;       ///< 0: all
   bool check = true;
-  std::vector<std::pair<std::string, std::string>> settings; ///< flags of settings.h's table, in their order
+  std::vector<std::pair<std::string, std::string>> settings;  ///< flags of settings.h's table, in their order
 };
 
 struct CompareRequest {

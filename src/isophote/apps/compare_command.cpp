@@ -31,9 +31,9 @@ int compare(const CompareRequest& request) {
   const Difference d = isophote::compare(image, reference, second);
   if (!request.error_picture.empty()) write_png(request.error_picture, error_picture(image, reference, 0.2f), 0);
   if (request.json) {
-    const nlohmann::ordered_json json = {{"rmse", d.rmse},         {"relative_rmse", d.relative_rmse},
-                                         {"relative_mse", d.relative_mse}, {"bias", d.bias},
-                                         {"block_error", d.block_error},   {"ssim", d.ssim}};
+    const nlohmann::ordered_json json = {
+        {"rmse", d.rmse}, {"relative_rmse", d.relative_rmse}, {"relative_mse", d.relative_mse},
+        {"bias", d.bias}, {"block_error", d.block_error},     {"ssim", d.ssim}};
     fmt::print("{}\n", json.dump());
   } else {
     fmt::print("RMSE            {:.6g}  ({:.3f}% of the reference's mean)\n", d.rmse, 100 * d.relative_rmse);
@@ -43,7 +43,8 @@ int compare(const CompareRequest& request) {
     fmt::print("SSIM            {:.5f}\n", d.ssim);
   }
   const bool failed = request.fail_above >= 0 && !(d.relative_rmse <= request.fail_above);
-  if (failed) fmt::print(stderr, "isophote: relative RMSE {:.4g} is above {:.4g}\n", d.relative_rmse, request.fail_above);
+  if (failed)
+    fmt::print(stderr, "isophote: relative RMSE {:.4g} is above {:.4g}\n", d.relative_rmse, request.fail_above);
   return failed ? 1 : 0;
 }
 

@@ -13,7 +13,8 @@ using namespace isophote;
 void add_render(CLI::App& program, app::RenderRequest& request) {
   CLI::App* verb = program.add_subcommand("render", "Render a scene (.glb, .gltf or .toml)");
   verb->add_option("scene", request.scene, "scene file")->required();
-  verb->add_option("-o,--output", request.outputs, "picture: .exr (all layers) or .png; may be repeated")->allow_extra_args(false);
+  verb->add_option("-o,--output", request.outputs, "picture: .exr (all layers) or .png; may be repeated")
+      ->allow_extra_args(false);
   for (const app::Option& option : app::options()) {
     const std::string name(option.name);
     verb->add_option_function<std::string>(
@@ -25,8 +26,10 @@ void add_render(CLI::App& program, app::RenderRequest& request) {
   verb->add_option("--stats", request.stats, "write statistics as JSON")->type_name("FILE");
   verb->add_option("--progress", request.progress, "bar, json or none (default: bar on a terminal)")
       ->check(CLI::IsMember({"bar", "json", "none"}));
-  verb->add_option("--preview", request.preview, "rewrite this PNG from coarse to fine while working")->type_name("FILE");
-  verb->add_option("--show-records", request.records_picture, "write a PNG of the records and their footprints")->type_name("FILE");
+  verb->add_option("--preview", request.preview, "rewrite this PNG from coarse to fine while working")
+      ->type_name("FILE");
+  verb->add_option("--show-records", request.records_picture, "write a PNG of the records and their footprints")
+      ->type_name("FILE");
   verb->add_option("--save-cache", request.save_cache, "write the records")->type_name("FILE");
   verb->add_option("--load-cache", request.load_cache, "start with these records")->type_name("FILE");
   verb->add_flag("!--no-check", request.check, "do not measure the error");
@@ -36,10 +39,12 @@ void add_compare(CLI::App& program, app::CompareRequest& request) {
   CLI::App* verb = program.add_subcommand("compare", "Measure how a picture differs from a reference");
   verb->add_option("image", request.image, "EXR picture")->required();
   verb->add_option("reference", request.reference, "EXR reference")->required();
-  verb->add_option("--second", request.second, "an independent second reference: the noise of both cancels")->type_name("FILE");
+  verb->add_option("--second", request.second, "an independent second reference: the noise of both cancels")
+      ->type_name("FILE");
   verb->add_option("--layer", request.layer, "layer of both, such as irradiance (default: the colours)");
   verb->add_option("--block", request.block, "average over blocks of N x N pixels first")->check(CLI::Range(1, 4096));
-  verb->add_option("--error-picture", request.error_picture, "write a PNG: blue too dark, red too bright")->type_name("FILE");
+  verb->add_option("--error-picture", request.error_picture, "write a PNG: blue too dark, red too bright")
+      ->type_name("FILE");
   verb->add_option("--fail-above", request.fail_above, "exit with 1 where the relative RMSE is above this");
   verb->add_flag("--json", request.json, "print JSON");
 }

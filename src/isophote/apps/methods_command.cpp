@@ -20,7 +20,8 @@ std::string bounds_text(const RadiusBounds& b) {
 }  // namespace
 
 int methods() {
-  fmt::print("{:<10} {:<20} {:<21} {:<38} {:<10} {}\n", "method", "estimator", "metric", "bounds", "secondary", "what it is");
+  fmt::print("{:<10} {:<20} {:<21} {:<38} {:<10} {}\n", "method", "estimator", "metric", "bounds", "secondary",
+             "what it is");
   for (const Method& m : isophote::methods()) {
     if (!m.caches()) {
       fmt::print("{:<10} {:<20} {:<21} {:<38} {:<10} {} {}\n", m.name, "-", "-", "-", "-", m.summary, m.paper);
@@ -33,7 +34,8 @@ int methods() {
   for (const Estimator& e : estimators()) fmt::print("{:<21} {:<44} {}\n", e.name, e.gives, e.paper);
   fmt::print("\n{:<21} {:<44} {}\n", "metric", "needs", "paper");
   for (const Metric& m : metrics())
-    fmt::print("{:<21} {:<44} {}\n", m.name, m.bounded ? "distances; a gradient for the gradient bound" : "distances", m.paper);
+    fmt::print("{:<21} {:<44} {}\n", m.name, m.bounded ? "distances; a gradient for the gradient bound" : "distances",
+               m.paper);
   return 0;
 }
 

@@ -15,8 +15,10 @@ ProgressDisplay::ProgressDisplay(const std::string& mode)
 void ProgressDisplay::show(std::string_view phase, double done) {
   if (mode_ == Mode::none) return;
   const Clock now = Clock::now();
-  if (phase != phase_) phase_ = phase, start_ = now;
-  else if (now.wall - last_.wall < 0.1 && done < 1) return;
+  if (phase != phase_)
+    phase_ = phase, start_ = now;
+  else if (now.wall - last_.wall < 0.1 && done < 1)
+    return;
   last_ = now;
   const double spent = now.wall - start_.wall;
   const double left = done > 0 ? spent * (1 - done) / done : 0;

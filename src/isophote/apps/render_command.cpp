@@ -24,6 +24,13 @@ bool ends_with(const std::string& text, std::string_view end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+std::vector<std::string> written_files(const RenderRequest& request) {
+  std::vector<std::string> files = request.outputs;
+  for (const std::string& file : {request.stats, request.preview, request.records_picture, request.save_cache})
+    if (!file.empty()) files.push_back(file);
+  return files;
+}
+
 /// Flags that cannot work are refused before anything is read.
 void check_request(const RenderRequest& request) {
   if (request.outputs.empty() && request.stats.empty() && request.records_picture.empty() && request.save_cache.empty())
@@ -32,7 +39,12 @@ void check_request(const RenderRequest& request) {
     if (!ends_with(output, ".exr") && !ends_with(output, ".png"))
       throw UsageError(fmt::format("-o {}: the name must end in .exr or .png", output));
   for (const auto& [flag, png] : {std::pair{"--preview", request.preview}, {"--show-records", request.records_picture}})
-    if (!png.empty() && !ends_with(png, ".png")) throw UsageError(fmt::format("{} {}: the name must end in .png", flag, png));
+    if (!png.empty() && !ends_with(png, ".png"))
+      throw UsageError(fmt::format("{} {}: the name must end in .png", flag, png));
+  std::vector<std::string> files = written_files(request);
+  std::sort(files.begin(), files.end());
+  if (const auto twice = std::adjacent_find(files.begin(), files.end()); twice != files.end())
+    throw UsageError(fmt::format("{} is to be written twice", *twice));
 }
 
 /// Flags win over the scene file, the scene file over defaults.
@@ -41,7 +53,8 @@ RenderSettings merged_settings(const RenderRequest& request, const std::vector<S
   for (const Setting& s : from_file) apply_setting(settings, s.table, s.key, s.value, s.place);
   for (const auto& [name, value] : request.settings) {
     const auto options = app::options();
-    const auto option = std::find_if(options.begin(), options.end(), [&n = name](const Option& o) { return o.name == n; });
+    const auto option =
+        std::find_if(options.begin(), options.end(), [&n = name](const Option& o) { return o.name == n; });
     try {
       option->apply(settings, value);
     } catch (const UsageError& error) {
@@ -51,9 +64,31 @@ RenderSettings merged_settings(const RenderRequest& request, const std::vector<S
   return settings;
 }
 
+/// Flags that decide the same thing, and flags that method `path` has no use for. (A scene file may hold settings for
+/// another method.)
+void check_flags(const RenderRequest& request, const Method& method) {
+  std::string deciding;
+  for (const auto& [name, value] : request.settings) {
+    if (name == "error" || name == "a" || name == "records") {
+      if (!deciding.empty())
+        throw UsageError(fmt::format("--{} and --{} both decide how many records there are: give one", deciding, name));
+      deciding = name;
+    }
+    const auto options = app::options();
+    const auto option =
+        std::find_if(options.begin(), options.end(), [&n = name](const Option& o) { return o.name == n; });
+    if (!method.caches() && option->caches)
+      throw UsageError(fmt::format("method 'path' caches nothing: it takes no --{}", name));
+  }
+}
+
 /// What the chosen way of rendering cannot do is refused, not left undone.
 void check_against_method(const RenderRequest& request, const RenderSettings& settings, const Method& method) {
-  if (!method.caches() && !(request.save_cache.empty() && request.load_cache.empty() && request.records_picture.empty()))
+  check_flags(request, method);
+  if (settings.lazy && !request.preview.empty())
+    throw UsageError("--order lazy is one pass from the top: it takes no --preview");
+  if (!method.caches() &&
+      !(request.save_cache.empty() && request.load_cache.empty() && request.records_picture.empty()))
     throw UsageError("method 'path' caches nothing: it takes no --save-cache, --load-cache or --show-records");
   if (settings.records && (settings.lazy || !request.load_cache.empty()))
     throw UsageError("--records builds caches in rounds and from nothing: it takes no --order lazy or --load-cache");
@@ -61,25 +96,27 @@ void check_against_method(const RenderRequest& request, const RenderSettings& se
 
 /// A file that cannot be written is found out before the work, not after it.
 void check_outputs(const RenderRequest& request) {
-  for (const std::string& output : request.outputs) AtomicFile{output};
-  for (const std::string& output : {request.stats, request.preview, request.records_picture, request.save_cache})
-    if (!output.empty()) AtomicFile{output};
+  for (const std::string& file : written_files(request)) AtomicFile{file};
 }
 
-/// Refuses pictures that do not fit in memory: the film, and as much again for the layers made of it.
+/// Refuses pictures that do not fit in memory: the film, and twice as much again for the layers made of it and their
+/// encoding.
 void check_size(int width, int height) {
-  const std::uint64_t bytes = 2 * sizeof(PixelSample) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  const std::uint64_t bytes =
+      3 * sizeof(PixelSample) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   MemoryBudget(physical_memory()).take(bytes, fmt::format("a picture of {} x {} pixels", width, height));
 }
 
-/// What shapes records, for the record file. The view and the seed do not matter: records of another view or seed serve as well.
+/// What shapes records, for the record file. The view and the seed do not matter: records of another view or seed serve
+/// as well.
 std::string record_settings(const Job& job) {
   const RadiusBounds& b = job.method.settings.bounds;
-  return fmt::format("estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmin-radius={}\nmax-radius={}\n"
-                     "bound-gradient={}\nbound-neighbours={}\ngather={}x{}\nsecondary={}\nmax-depth={}\n",
-                     job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels, b.min_view,
-                     b.min_length, b.max_length, b.gradient, b.neighbours, job.strata.polar, job.strata.azimuthal,
-                     job.method.secondary, job.world.max_depth);
+  return fmt::format(
+      "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmin-radius={}\nmax-radius={}\n"
+      "bound-gradient={}\nbound-neighbours={}\ngather={}x{}\nsecondary={}\nmax-depth={}\n",
+      job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels,
+      b.min_view, b.min_length, b.max_length, b.gradient, b.neighbours, job.strata.polar, job.strata.azimuthal,
+      job.method.secondary, job.world.max_depth);
 }
 
 /// One run of `isophote render`, step by step.
@@ -96,8 +133,10 @@ class Rendering {
     check_outputs(request_);
     load();
     Film film(job_->width, job_->height);
-    if (job_->method.caches()) render_cached(film);
-    else final_pass(nullptr, film);
+    if (job_->method.caches())
+      render_cached(film);
+    else
+      final_pass(nullptr, film);
     write(film);
     display_.clear();
     statistics_.print();
@@ -117,10 +156,13 @@ class Rendering {
     const Camera camera = chosen_camera(settings_, loaded_.scene);
     rays_.emplace(loaded_.scene);
     emitters_.emplace(loaded_.scene);
-    job_.emplace(Job{World{loaded_.scene, *rays_, *emitters_, settings_.max_depth.value_or(std::numeric_limits<int>::max())}, camera});
+    job_.emplace(
+        Job{World{loaded_.scene, *rays_, *emitters_, settings_.max_depth.value_or(std::numeric_limits<int>::max())},
+            camera});
     Job& job = *job_;
     job.height = settings_.height.value_or(512);
-    job.width = settings_.width.value_or(std::clamp(static_cast<int>(std::lround(512 * (camera.aspect > 0 ? camera.aspect : 1))), 1, 32768));
+    job.width = settings_.width.value_or(
+        std::clamp(static_cast<int>(std::lround(512 * (camera.aspect > 0 ? camera.aspect : 1))), 1, 32768));
     check_size(job.width, job.height);
     job.samples = settings_.samples;
     job.seed = settings_.seed;
@@ -141,6 +183,7 @@ class Rendering {
       const LazyReport report = render_lazily(*job_, cache, film);
       statistics_.time.build = report.build;
       statistics_.rays += report.build_rays;
+      build_rays_ = report.build_rays.total();
       note(report.final, Clock::now() - begin - report.build);
       cache.reindex();
     } else {
@@ -175,13 +218,15 @@ class Rendering {
     statistics_.rounds = report.rounds;
     statistics_.passes = report.passes;
     statistics_.rays += report.rays;
+    build_rays_ = report.rays.total();
     statistics_.cancelled = report.cancelled;
   }
 
   void check(const RecordCache& cache) {
     display_.show("check", 0);
     const Clock begin = Clock::now();
-    statistics_.error = check_points(*job_, cache, statistics_.rays.total() / 5);
+    statistics_.error = check_points(*job_, cache, build_rays_ / 5);
+    statistics_.cancelled = Interruptible::interrupted();
     statistics_.rays += statistics_.error.rays;
     statistics_.time.check = Clock::now() - begin;
   }
@@ -201,12 +246,16 @@ class Rendering {
 
   void save(const RecordCache& cache) {
     const auto records = cache.records();
-    write_records(request_.save_cache, {scene_hash(loaded_.scene), record_settings(*job_), {records.begin(), records.end()}});
+    write_records(request_.save_cache,
+                  {scene_hash(loaded_.scene), record_settings(*job_), {records.begin(), records.end()}});
   }
 
-  float exposure(const RgbImage& image) const { return settings_.exposure ? *settings_.exposure : auto_exposure(image); }
+  float exposure(const RgbImage& image) const {
+    return settings_.exposure ? *settings_.exposure : auto_exposure(image);
+  }
 
   void write(const Film& film) {
+    display_.clear();
     for (const std::string& output : request_.outputs) {
       if (ends_with(output, ".exr")) {
         write_exr(output, film.exr());
@@ -230,7 +279,9 @@ class Rendering {
       s.a = job.method.settings.a;
     }
     s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
-    s.error_asked = settings_.error, s.seed = settings_.seed, s.threads = threads_.count();
+    // Where a threshold or a number of records was given, no error was asked for.
+    if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
+    s.seed = settings_.seed, s.threads = threads_.count();
     s.width = job.width, s.height = job.height, s.triangles = loaded_.scene.triangle_count();
     s.samples = static_cast<std::uint64_t>(job.width) * job.height * job.samples;
     s.time.total = Clock::now() - start_;
@@ -247,6 +298,7 @@ class Rendering {
   std::optional<Emitters> emitters_;
   std::optional<Job> job_;
   Statistics statistics_;
+  std::uint64_t build_rays_ = 0;
 };
 
 }  // namespace

@@ -24,7 +24,8 @@ T number(const std::string& text, double low, double high) {
   }
   const bool whole = !std::is_integral_v<T> || value == std::floor(value);
   if (used != text.size() || !std::isfinite(value) || value < low || value > high || !whole)
-    throw UsageError(fmt::format("wants a{} number from {} to {}, not '{}'", std::is_integral_v<T> ? " whole" : "", low, high, text));
+    throw UsageError(fmt::format("wants a{} number from {} to {}, not '{}'", std::is_integral_v<T> ? " whole" : "", low,
+                                 high, text));
   return static_cast<T>(value);
 }
 
@@ -41,41 +42,53 @@ void size(RenderSettings& s, const std::string& text) {
   s.height = number<int>(text.substr(cross + 1), 1, 32768);
 }
 
-using S = RenderSettings;
+using S = RenderSettings;  // the two parameter types of every line below
 using T = const std::string&;
 
 constexpr Option table[] = {
     {"film", "size", "WxH", "picture size in pixels; keeps the vertical field of view", size},
-    {"film", "camera", "CAMERA", "name or index of a camera of the scene, or eye;target;fov", [](S& s, T t) { s.camera = t; }},
-    {"film", "spp", "N", "samples a pixel", [](S& s, T t) { s.samples = number<int>(t, 1, 1 << 20); }},
+    {"film", "camera", "CAMERA", "name or index of a camera of the scene, or eye;target;fov",
+     [](S& s, T t) { s.camera = t; }},
+    {"film", "spp", "N", "samples a pixel", [](S& s, T t) { s.samples = number<int>(t, 1, 1 << 16); }},
     {"film", "exposure", "EV|auto", "stops, for PNG pictures",
      [](S& s, T t) { s.exposure = t == "auto" ? std::nullopt : std::optional(number<float>(t, -100, 100)); }},
-    {"method", "method", "NAME", "one of those that 'isophote methods' lists", [](S& s, T t) { s.method = find_method(t).name; }},
-    {"method", "estimator", "NAME", "another estimator than the method's", [](S& s, T t) { s.estimator = find_estimator(t).name; }},
-    {"method", "metric", "NAME", "another metric than the method's", [](S& s, T t) { s.metric = find_metric(t).name; }},
+    {"method", "method", "NAME", "one of those that 'isophote methods' lists",
+     [](S& s, T t) { s.method = find_method(t).name; }},
+    {"method", "estimator", "NAME", "another estimator than the method's",
+     [](S& s, T t) { s.estimator = find_estimator(t).name; }, true},
+    {"method", "metric", "NAME", "another metric than the method's", [](S& s, T t) { s.metric = find_metric(t).name; },
+     true},
     {"method", "error", "E", "wanted mean relative error of the cached irradiance",
-     [](S& s, T t) { s.error = number<double>(t, 1e-5, 10); }},
-    {"method", "a", "A", "the metric's own threshold, in place of --error", [](S& s, T t) { s.a = number<float>(t, 1e-4, 1); }},
+     [](S& s, T t) { s.error = number<double>(t, 1e-5, 10), s.a.reset(), s.records.reset(); }, true},
+    {"method", "a", "A", "the metric's own threshold, in place of --error",
+     [](S& s, T t) { s.a = number<float>(t, 1e-4, 1), s.error.reset(), s.records.reset(); }, true},
     {"method", "records", "N", "solve for the threshold that gives about N records",
-     [](S& s, T t) { s.records = number<int>(t, 1, 10'000'000); }},
-    {"method", "rays", "N", "gather rays of a record", [](S& s, T t) { s.rays = number<int>(t, 12, 1 << 24); }},
+     [](S& s, T t) { s.records = number<int>(t, 1, 10'000'000), s.error.reset(), s.a.reset(); }, true},
+    {"method", "rays", "N", "gather rays of a record", [](S& s, T t) { s.rays = number<int>(t, 12, 1 << 24); }, true},
     {"method", "secondary", "on|off", "do gather rays read the cache where they hit?",
-     [](S& s, T t) { s.secondary = on_off(t); }},
+     [](S& s, T t) { s.secondary = on_off(t); }, true},
     {"method", "max-depth", "N", "scattering events after the camera; 1 is direct light (default: no limit)",
      [](S& s, T t) { s.max_depth = number<int>(t, 1, 1 << 30); }},
     {"method", "order", "rounds|lazy", "how the cache is built",
      [](S& s, T t) {
        if (t != "rounds" && t != "lazy") throw UsageError(fmt::format("wants rounds or lazy, not '{}'", t));
        s.lazy = t == "lazy";
-     }},
-    {"method", "min-pixels", "N", "lower bound of radii, in pixels", [](S& s, T t) { s.min_pixels = number<float>(t, 0, 1e6); }},
-    {"method", "max-pixels", "N", "upper bound of radii, in pixels", [](S& s, T t) { s.max_pixels = number<float>(t, 0, 1e6); }},
+     },
+     true},
+    {"method", "min-pixels", "N", "lower bound of radii, in pixels",
+     [](S& s, T t) { s.min_pixels = number<float>(t, 0, 1e6); }, true},
+    {"method", "max-pixels", "N", "upper bound of radii, in pixels",
+     [](S& s, T t) { s.max_pixels = number<float>(t, 0, 1e6); }, true},
     {"method", "min-view", "H", "lower bound of radii, in heights of the picture, times the threshold a",
-     [](S& s, T t) { s.min_view = number<float>(t, 0, 1e6); }},
-    {"method", "min-radius", "R", "lower bound of radii, in scene units", [](S& s, T t) { s.min_radius = number<float>(t, 0, 1e30); }},
-    {"method", "max-radius", "R", "upper bound of radii, in scene units", [](S& s, T t) { s.max_radius = number<float>(t, 0, 1e30); }},
-    {"method", "bound-gradient", "on|off", "bound radii by the relative gradient", [](S& s, T t) { s.bound_gradient = on_off(t); }},
-    {"method", "bound-neighbours", "on|off", "bound radii by those of neighbours", [](S& s, T t) { s.bound_neighbours = on_off(t); }},
+     [](S& s, T t) { s.min_view = number<float>(t, 0, 1e6); }, true},
+    {"method", "min-radius", "R", "lower bound of radii, in scene units",
+     [](S& s, T t) { s.min_radius = number<float>(t, 0, 1e30); }, true},
+    {"method", "max-radius", "R", "upper bound of radii, in scene units",
+     [](S& s, T t) { s.max_radius = number<float>(t, 0, 1e30); }, true},
+    {"method", "bound-gradient", "on|off", "bound radii by the relative gradient",
+     [](S& s, T t) { s.bound_gradient = on_off(t); }, true},
+    {"method", "bound-neighbours", "on|off", "bound radii by those of neighbours",
+     [](S& s, T t) { s.bound_neighbours = on_off(t); }, true},
     {"method", "seed", "N", "of the random numbers", [](S& s, T t) { s.seed = number<std::uint64_t>(t, 0, 9e15); }},
 };
 
@@ -91,8 +104,8 @@ Vec3 point(const std::string& text) {
 
 std::span<const Option> options() { return table; }
 
-void apply_setting(RenderSettings& settings, const std::string& table_name, const std::string& name, const std::string& value,
-                   const std::string& place) {
+void apply_setting(RenderSettings& settings, const std::string& table_name, const std::string& name,
+                   const std::string& value, const std::string& place) {
   for (const Option& option : table) {
     if (option.table != table_name || option.name != name) continue;
     try {
@@ -109,12 +122,7 @@ void apply_setting(RenderSettings& settings, const std::string& table_name, cons
 
 Method chosen_method(const RenderSettings& s) {
   Method method = find_method(s.method);
-  if (!method.caches()) {
-    if (!s.estimator.empty() || !s.metric.empty() || s.records || s.lazy)
-      throw UsageError("method 'path' caches nothing: it takes no estimator, metric, number of records or order");
-    return method;
-  }
-  if (s.lazy && s.records) throw UsageError("--records solves by building in rounds: leave out --order lazy");
+  if (!method.caches()) return method;
   if (!s.estimator.empty()) method.estimator = &find_estimator(s.estimator);
   if (!s.metric.empty()) {
     method.metric = &find_metric(s.metric);
@@ -128,7 +136,8 @@ Method chosen_method(const RenderSettings& s) {
   bounds.max_length = s.max_radius.value_or(bounds.max_length);
   bounds.gradient = s.bound_gradient.value_or(bounds.gradient);
   bounds.neighbours = s.bound_neighbours.value_or(bounds.neighbours);
-  method.settings.a = s.a.value_or(std::min(1.0f, method.metric->a_per_root_error * static_cast<float>(std::sqrt(s.error))));
+  method.settings.a = s.a.value_or(
+      std::min(1.0f, method.metric->a_per_root_error * static_cast<float>(std::sqrt(s.error.value_or(default_error)))));
   // A cached value has no depth: with a limit on depth, gather rays follow their paths.
   method.secondary = s.secondary.value_or(method.secondary && !s.max_depth);
   if (method.secondary && s.max_depth) throw UsageError("--secondary on has no limit of depth: leave out --max-depth");

@@ -16,7 +16,7 @@ struct RenderSettings {
   std::optional<int> width, height;
   std::string camera;
   int samples = 16;
-  double error = 0.02;
+  std::optional<double> error;  ///< none: default_error
   std::optional<float> a;
   int rays = 800;
   std::optional<int> max_depth, records;
@@ -28,16 +28,20 @@ struct RenderSettings {
   std::optional<float> exposure;  ///< stops; none: chosen from the picture
 };
 
+/// Wanted mean relative error where neither an error, a threshold nor a number of records is given.
+inline constexpr double default_error = 0.02;
+
 /// One setting: `--name VALUE` on the command line, `name = VALUE` in a scene file's [film] or [method] table.
 struct Option {
   std::string_view table, name, values, help;
   void (*apply)(RenderSettings&, const std::string& value);  ///< throws UsageError saying what it wants
+  bool caches = false;                                       ///< means something only to methods that cache
 };
 std::span<const Option> options();
 
 /// Applies one setting of a scene file. Throws UserError `PLACE: reason` for unknown keys and bad values.
-void apply_setting(RenderSettings& settings, const std::string& table, const std::string& name, const std::string& value,
-                   const std::string& place);
+void apply_setting(RenderSettings& settings, const std::string& table, const std::string& name,
+                   const std::string& value, const std::string& place);
 
 /// The method these settings ask for, its combination checked.
 Method chosen_method(const RenderSettings& settings);

@@ -19,25 +19,33 @@ void Statistics::print() const {
   fmt::print("{} x {} pixels, {} triangles, method {}\n", width, height, triangles, method);
   if (!estimator.empty()) {
     fmt::print("  records    {} ({} x {} rays each, {} order{}), {} of {} samples uncovered\n", records, strata.polar,
-               strata.azimuthal, lazy ? "lazy" : "rounds", lazy ? "" : fmt::format(", {} rounds", rounds), uncovered, samples);
-    fmt::print("  threshold  a = {:.4g}, estimator {}, metric {}, secondary {}\n", a, estimator, metric, secondary ? "on" : "off");
+               strata.azimuthal, lazy ? "lazy" : "rounds", lazy ? "" : fmt::format(", {} rounds", rounds), uncovered,
+               samples);
+    fmt::print("  threshold  a = {}, estimator {}, metric {}, secondary {}\n", a, estimator, metric,
+               secondary ? "on" : "off");
   }
-  fmt::print("  CPU        load {:.2f} s, build {:.2f} s, final {:.2f} s, check {:.2f} s; wall {:.2f} s on {} threads\n",
-             time.load.cpu, time.build.cpu, time.final.cpu, time.check.cpu, time.total.wall, threads);
+  fmt::print(
+      "  CPU        load {:.2f} s, build {:.2f} s, final {:.2f} s, check {:.2f} s; wall {:.2f} s on {} threads\n",
+      time.load.cpu, time.build.cpu, time.final.cpu, time.check.cpu, time.total.wall, threads);
   fmt::print("  rays       {} camera, {} gather, {} path, {} shadow, {} check\n", rays.camera, rays.gather, rays.path,
              rays.shadow, rays.check);
   fmt::print("  memory     {:.0f} MB at the peak\n", static_cast<double>(peak_memory()) / 1e6);
   if (error.points > 0)
-    fmt::print("  error      asked {:.3g}, measured {:.3g} at {} random visible points (median {:.3g}, 95th percentile {:.3g}, "
-               "bias {:+.3g}; the measurement's own noise is {:.2g})\n",
-               error_asked, error.mean, error.points, error.median, error.p95, error.bias, error.noise);
+    fmt::print(
+        "  error      {}measured {:.3g} at {} random visible points (median {:.3g}, 95th percentile {:.3g}, "
+        "bias {:+.3g}; the measurement's own noise is {:.2g})\n",
+        error_asked ? fmt::format("asked {:.3g}, ", *error_asked) : "", error.mean, error.points, error.median,
+        error.p95, error.bias, error.noise);
 }
 
 void Statistics::write_json(const std::string& path) const {
   using Json = nlohmann::ordered_json;
   const auto phases = [&](double Clock::*field) {
-    return Json{{"load", time.load.*field},   {"build", time.build.*field}, {"check", time.check.*field},
-                {"final", time.final.*field}, {"total", time.total.*field}};
+    return Json{{"load", time.load.*field},
+                {"build", time.build.*field},
+                {"check", time.check.*field},
+                {"final", time.final.*field},
+                {"total", time.total.*field}};
   };
   Json json{{"method", method},
             {"records", records},
@@ -46,8 +54,12 @@ void Statistics::write_json(const std::string& path) const {
             {"rounds", rounds},
             {"passes", passes},
             {"rays",
-             {{"camera", rays.camera}, {"shadow", rays.shadow}, {"gather", rays.gather}, {"path", rays.path},
-              {"check", rays.check}, {"total", rays.total()}}},
+             {{"camera", rays.camera},
+              {"shadow", rays.shadow},
+              {"gather", rays.gather},
+              {"path", rays.path},
+              {"check", rays.check},
+              {"total", rays.total()}}},
             {"cpu_seconds", phases(&Clock::cpu)},
             {"wall_seconds", phases(&Clock::wall)},
             {"peak_memory_bytes", peak_memory()},
@@ -58,14 +70,18 @@ void Statistics::write_json(const std::string& path) const {
             {"triangles", triangles},
             {"cancelled", cancelled}};
   if (!estimator.empty())
-    json["parameters"] = {{"estimator", estimator},      {"metric", metric},
-                          {"a", a},                      {"gather", {strata.polar, strata.azimuthal}},
-                          {"order", lazy ? "lazy" : "rounds"}, {"secondary", secondary}};
+    json["parameters"] = {{"estimator", estimator},
+                          {"metric", metric},
+                          {"a", a},
+                          {"gather", {strata.polar, strata.azimuthal}},
+                          {"order", lazy ? "lazy" : "rounds"},
+                          {"secondary", secondary}};
+  const Json asked = error_asked ? Json(*error_asked) : Json(nullptr);
   if (error.points > 0)
-    json["error"] = {{"asked", error_asked}, {"mean", error.mean}, {"median", error.median}, {"p95", error.p95},
-                     {"bias", error.bias},   {"noise", error.noise}, {"points", error.points}};
+    json["error"] = {{"asked", asked},     {"mean", error.mean},   {"median", error.median}, {"p95", error.p95},
+                     {"bias", error.bias}, {"noise", error.noise}, {"points", error.points}};
   else if (!estimator.empty())
-    json["error"] = {{"asked", error_asked}, {"points", 0}};
+    json["error"] = {{"asked", asked}, {"points", 0}};
   AtomicFile file(path);
   file.stream() << json.dump(2) << "\n";
   file.commit();

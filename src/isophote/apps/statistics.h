@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "isophote/integrate/check_points.h"
@@ -11,7 +12,7 @@ namespace isophote::app {
 struct Statistics {
   std::string method, estimator, metric;
   bool lazy = false, secondary = false, cancelled = false;
-  double error_asked = 0;
+  std::optional<double> error_asked;
   float a = 0;
   Strata strata;
   std::size_t records = 0, rounds = 0, triangles = 0;

@@ -15,9 +15,10 @@ template <class A, class B>
 }  // namespace isophote::detail
 
 /// Aborts with both values where `a op b` does not hold: a fault of the program, never of its input.
-#define ISOPHOTE_CHECK(a, op, b)                                                                             \
-  do {                                                                                                       \
-    const auto& check_a = (a);                                                                               \
-    const auto& check_b = (b);                                                                               \
-    if (!(check_a op check_b)) ::isophote::detail::check_failed(#a " " #op " " #b, check_a, check_b, __FILE__, __LINE__); \
+#define ISOPHOTE_CHECK(a, op, b)                                                                 \
+  do {                                                                                           \
+    const auto& check_a = (a);                                                                   \
+    const auto& check_b = (b);                                                                   \
+    if (!(check_a op check_b))                                                                   \
+      ::isophote::detail::check_failed(#a " " #op " " #b, check_a, check_b, __FILE__, __LINE__); \
   } while (false)

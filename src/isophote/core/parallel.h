@@ -8,8 +8,8 @@ namespace isophote {
 /// How a host runs a loop: calls body(begin, end) for pieces that together cover [0, count), each index once, on any
 /// thread and in any order, and returns when all are done. `grain` is the least piece worth a thread. Nothing here
 /// depends on how the pieces fall: results are the same for every implementation.
-using ParallelFor =
-    std::function<void(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body)>;
+using ParallelFor = std::function<void(std::size_t count, std::size_t grain,
+                                       const std::function<void(std::size_t, std::size_t)>& body)>;
 
 /// The loop on the calling thread.
 ParallelFor serial_for();

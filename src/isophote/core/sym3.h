@@ -20,7 +20,8 @@ using Sym3d = Sym3T<double>;
 /// v . (A v)
 template <class T>
 constexpr T quadratic_form(const Sym3T<T>& a, const Vec3T<T>& v) {
-  return a.xx * v.x * v.x + a.yy * v.y * v.y + a.zz * v.z * v.z + 2 * (a.xy * v.x * v.y + a.xz * v.x * v.z + a.yz * v.y * v.z);
+  return a.xx * v.x * v.x + a.yy * v.y * v.y + a.zz * v.z * v.z +
+         2 * (a.xy * v.x * v.y + a.xz * v.x * v.z + a.yz * v.y * v.z);
 }
 
 }  // namespace isophote

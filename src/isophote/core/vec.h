@@ -13,7 +13,8 @@ struct Vec3T {
   constexpr Vec3T() = default;
   constexpr Vec3T(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
   template <class S>
-  explicit constexpr Vec3T(const Vec3T<S>& v) : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
+  explicit constexpr Vec3T(const Vec3T<S>& v)
+      : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
 
   constexpr T operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
   constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }

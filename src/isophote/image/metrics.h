@@ -21,9 +21,9 @@ struct Difference {
 /// that lie within the picture (in a side shorter than 11 the window is cut to fit).
 Difference compare(const RgbImage& image, const RgbImage& reference);
 
-/// The same against a reference of which there are two independent estimates. The product of the differences to each stands for the squared
-/// difference, so that the noise of the references cancels on average; what it leaves can make a squared error negative, which counts as 0.
-/// `ssim` is against the mean of both.
+/// The same against a reference of which there are two independent estimates. The product of the differences to each
+/// stands for the squared difference, so that the noise of the references cancels on average; what it leaves can make a
+/// squared error negative, which counts as 0. `ssim` is against the mean of both.
 Difference compare(const RgbImage& image, const RgbImage& reference, const RgbImage& second);
 
 /// Means over n x n blocks; a last incomplete row or column of blocks is averaged over what it has.

@@ -1,22 +1,25 @@
 #include "isophote/integrate/build.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "isophote/integrate/render.h"
 
 namespace isophote {
 namespace {
 
-/// Records in a round: a constant, so that the picture does not depend on the machine. Large enough to keep many threads busy.
+/// Records in a round: a constant, so that the picture does not depend on the machine. Large enough to keep many
+/// threads busy.
 constexpr std::size_t batch_size = 64;
-/// A round is filled up to this size with points nearer to each other than they should be, rather than leave threads idle.
+/// A round is filled up to this size with points nearer to each other than they should be, rather than leave threads
+/// idle.
 constexpr std::size_t least_batch = 8;
 /// Passes over all pixels end when one finds fewer than this part of them uncovered.
 constexpr double good_coverage = 1e-3;
 constexpr int most_passes = 16;
 
-/// An uncovered point of the picture. `reach` is the radius that a record here is expected to have: that of the record nearest in
-/// terms of its own footprint.
+/// An uncovered point of the picture. `reach` is the radius that a record here is expected to have: that of the record
+/// nearest in terms of its own footprint.
 struct Candidate {
   Place place;
   std::uint64_t rank = 0;  ///< its turn, by a hash of its pixel: well spread
@@ -41,13 +44,14 @@ class Builder {
     job_.progress.tell("build", 0);
     int stride = 1;
     while (stride * 16 <= std::min(job_.width, job_.height) && stride < 64) stride *= 2;
-    for (double done = 0; stride > 1 && !report_.cancelled; stride /= 2, done += 0.1) {
+    for (; stride > 1 && !report_.cancelled; stride /= 2) {
+      begin_level();
       cover(uncovered(stride, 0));
-      job_.progress.tell("build", done);
       if (job_.progress.preview) job_.progress.preview(coarse_picture(job_, cache_, stride));
     }
     const double pixels = static_cast<double>(job_.width) * job_.height;
     for (int pass = 0; pass < most_passes && !report_.cancelled; ++pass) {
+      begin_level();
       std::vector<Candidate> left = uncovered(1, pass % job_.samples);
       ++report_.passes;
       const bool enough = static_cast<double>(left.size()) < good_coverage * pixels;
@@ -60,6 +64,12 @@ class Builder {
   }
 
  private:
+  /// How much work is left is not known before it is done: each level is taken for a quarter of what is left.
+  void begin_level() {
+    done_ += share_;
+    share_ = (1 - done_) / 4;
+  }
+
   /// The uncovered points that sample `sample` of every stride-th pixel sees, ordered by rank.
   std::vector<Candidate> uncovered(int stride, int sample) {
     const auto columns = static_cast<std::size_t>((job_.width + stride - 1 - stride / 2) / stride);
@@ -85,6 +95,7 @@ class Builder {
 
   /// Rounds, until records cover all candidates.
   void cover(std::vector<Candidate> candidates) {
+    const auto all = static_cast<double>(candidates.size());
     while (!candidates.empty()) {
       if (job_.progress.stop()) {
         report_.cancelled = true;
@@ -101,6 +112,7 @@ class Builder {
         if (!covered[i]) candidates[kept++] = candidates[i];
       candidates.resize(kept);
       ++report_.rounds;
+      job_.progress.tell("build", done_ + (1 - static_cast<double>(kept) / all) * share_);
     }
   }
 
@@ -111,12 +123,15 @@ class Builder {
     const auto clear = [&](const Candidate& c) {
       return std::none_of(picked.begin(), picked.end(), [&](const Candidate& p) {
         const float reach = std::max(p.reach, c.reach);
-        return length_squared(p.place.position - c.place.position) < reach * reach && dot(p.place.normal, c.place.normal) > 0;
+        return length_squared(p.place.position - c.place.position) < reach * reach &&
+               dot(p.place.normal, c.place.normal) > 0;
       });
     };
     for (; i < candidates.size() && picked.size() < batch_size; ++i) {
-      if (clear(candidates[i])) picked.push_back(candidates[i]);
-      else candidates[kept++] = candidates[i];
+      if (clear(candidates[i]))
+        picked.push_back(candidates[i]);
+      else
+        candidates[kept++] = candidates[i];
     }
     for (; i < candidates.size(); ++i) candidates[kept++] = candidates[i];
     std::size_t first = 0;
@@ -144,21 +159,24 @@ class Builder {
   const Job& job_;
   RecordCache& cache_;
   BuildReport report_;
+  double done_ = 0, share_ = 0;  // of the build: before the present level, and of it
 };
 
 }  // namespace
 
 std::optional<Place> place_of(const Job& job, const FirstPoint& seen) {
   if (!seen.point || !seen.point->bsdf.has_diffuse() || seen.depth + 1 >= job.world.max_depth) return std::nullopt;
+  if (seen.depth > 0 && job.world.max_depth < std::numeric_limits<int>::max()) return std::nullopt;  // see shade()
   const SurfacePoint& p = *seen.point;
   return Place{p.position, p.geometric_normal, p.shading_normal, job.pixel_footprint(seen.path_length)};
 }
 
-Record make_record(const Job& job, const RecordCache& cache, const Place& place, std::size_t id, HemisphereGather& scratch,
-                   RayCounts& counts) {
+Record make_record(const Job& job, const RecordCache& cache, const Place& place, std::size_t id,
+                   HemisphereGather& scratch, RayCounts& counts) {
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), job.seed, id);
   gather_hemisphere(job.world, job.method.secondary ? &cache : nullptr, place, job.strata, key, scratch, counts);
-  return job.method.make_record(scratch, {place.pixel, place.pixel * static_cast<float>(job.height), job.world.rays.scene_scale()});
+  return job.method.make_record(
+      scratch, {place.pixel, place.pixel * static_cast<float>(job.height), job.world.rays.scene_scale()});
 }
 
 RecordCache empty_cache(const Job& job) { return RecordCache(job.world.scene.bounds()); }

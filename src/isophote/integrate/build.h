@@ -13,15 +13,16 @@ struct BuildReport {
   bool cancelled = false;
 };
 
-/// Fills `cache` in rounds until the picture's pixels are covered. In each round, in parallel and reading only what earlier rounds
-/// wrote, a batch of uncovered points well apart becomes records; these are then inserted and settled in order. Image levels go from
-/// coarse to fine; the finest is repeated, each time through other points of the pixels, until next to none is uncovered. The result does
-/// not depend on the number of threads. Records that are there already are kept.
+/// Fills `cache` in rounds until the picture's pixels are covered. In each round, in parallel and reading only what
+/// earlier rounds wrote, a batch of uncovered points well apart becomes records; these are then inserted and settled in
+/// order. Image levels go from coarse to fine; the finest is repeated, each time through other points of the pixels,
+/// until next to none is uncovered. The result does not depend on the number of threads. Records that are there already
+/// are kept.
 BuildReport build_in_rounds(const Job& job, RecordCache& cache);
 
 /// The record with the index `id` at a place.
-Record make_record(const Job& job, const RecordCache& cache, const Place& place, std::size_t id, HemisphereGather& scratch,
-                   RayCounts& counts);
+Record make_record(const Job& job, const RecordCache& cache, const Place& place, std::size_t id,
+                   HemisphereGather& scratch, RayCounts& counts);
 
 /// The place a camera sample asks to be covered; none where it meets nothing that scatters diffusely.
 std::optional<Place> place_of(const Job& job, const FirstPoint& seen);

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "isophote/integrate/gather.h"
 #include "isophote/integrate/build.h"
+#include "isophote/integrate/gather.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {
 namespace {
 
 constexpr int rays_per_point = 3200;
-constexpr int fewest = 32, most = 1024;
+constexpr int fewest = 16, most = 1024;
+constexpr std::size_t between_stops = 64;  // points, after which the host is asked whether to go on
 
 struct CheckPoint {
   bool valid = false;
@@ -80,16 +81,20 @@ MeasuredError summary(const std::vector<CheckPoint>& points) {
 
 MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget) {
   std::vector<CheckPoint> points(fewest);
+  RayCounts rays;
   const auto measure = [&](std::size_t from) {
-    return for_each(job.parallel, points.size() - from, 1, [&](std::size_t i, RayCounts& counts) {
-      points[from + i] = check_point(job, cache, from + i, counts);
-    });
+    for (; from < points.size() && !job.progress.stop(); from += between_stops) {
+      rays += for_each(
+          job.parallel, std::min(between_stops, points.size() - from), 1,
+          [&](std::size_t i, RayCounts& counts) { points[from + i] = check_point(job, cache, from + i, counts); });
+      job.progress.tell("check", static_cast<double>(from) / static_cast<double>(points.size()));
+    }
   };
-  RayCounts rays = measure(0);
+  measure(0);
   const double each = std::max(1.0, static_cast<double>(rays.check) / fewest);
   const auto wanted = std::clamp(static_cast<double>(ray_budget) / each, double{fewest}, double{most});
   points.resize(static_cast<std::size_t>(wanted));
-  rays += measure(fewest);
+  measure(fewest);
   MeasuredError error = summary(points);
   error.rays = rays;
   return error;

@@ -30,7 +30,6 @@ class Film {
 
   RgbImage color() const;  ///< direct + indirect
   RgbImage irradiance() const { return mean(&PixelSample::irradiance); }
-  RgbImage indirect() const { return mean(&PixelSample::indirect); }
   /// All layers under the project's names: R,G,B,A, direct, indirect, irradiance, albedo, normal, depth.Z.
   ExrFile exr() const;
 

@@ -5,8 +5,8 @@
 namespace isophote {
 namespace {
 
-Rgb scattered_radiance(const World& world, const RecordCache* cache, const SurfacePoint& point, const Vec3& wo, int depth,
-                       Sampler& sampler, RayCounts& counts) {
+Rgb scattered_radiance(const World& world, const RecordCache* cache, const SurfacePoint& point, const Vec3& wo,
+                       int depth, Sampler& sampler, RayCounts& counts) {
   if (cache) {
     const Shaded s = shade(world, *cache, point, wo, depth, sampler, counts);
     return s.direct + s.indirect;
@@ -21,14 +21,15 @@ GatherSample gather_sample(const World& world, const RecordCache* cache, const R
   GatherSample sample{ray.direction, hit.first_distance, hit.emission, hit.first_normal, hit.first_mesh};
   const int depth = 1 + hit.depth;
   if (hit.point && depth < world.max_depth)
-    sample.radiance += hit.throughput * scattered_radiance(world, cache, *hit.point, -hit.direction, depth, sampler, counts);
+    sample.radiance +=
+        hit.throughput * scattered_radiance(world, cache, *hit.point, -hit.direction, depth, sampler, counts);
   return sample;
 }
 
 }  // namespace
 
-void gather_hemisphere(const World& world, const RecordCache* cache, const Place& place, Strata strata, std::uint64_t key,
-                       HemisphereGather& gather, RayCounts& counts) {
+void gather_hemisphere(const World& world, const RecordCache* cache, const Place& place, Strata strata,
+                       std::uint64_t key, HemisphereGather& gather, RayCounts& counts) {
   gather.position = place.position;
   gather.frame = Frame(place.normal);
   gather.strata = strata;

@@ -14,9 +14,10 @@ struct Place {
   float pixel = 0;  ///< length a pixel spans there
 };
 
-/// One ray into each stratum of the hemisphere above `place`. Radiance is a path's, or, where `cache` is not null and covers the hit,
-/// direct light plus the cached irradiance; emission of directly sampled emitters at the first hit is left out. `key` seeds the record.
-void gather_hemisphere(const World& world, const RecordCache* cache, const Place& place, Strata strata, std::uint64_t key,
-                       HemisphereGather& gather, RayCounts& counts);
+/// One ray into each stratum of the hemisphere above `place`. Radiance is a path's, or, where `cache` is not null and
+/// covers the hit, direct light plus the cached irradiance; emission of directly sampled emitters at the first hit is
+/// left out. `key` seeds the record.
+void gather_hemisphere(const World& world, const RecordCache* cache, const Place& place, Strata strata,
+                       std::uint64_t key, HemisphereGather& gather, RayCounts& counts);
 
 }  // namespace isophote

@@ -24,7 +24,8 @@ Clock Clock::now() {
   timespec cpu{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
   const auto wall = std::chrono::steady_clock::now().time_since_epoch();
-  return {static_cast<double>(cpu.tv_sec) + 1e-9 * static_cast<double>(cpu.tv_nsec), std::chrono::duration<double>(wall).count()};
+  return {static_cast<double>(cpu.tv_sec) + 1e-9 * static_cast<double>(cpu.tv_nsec),
+          std::chrono::duration<double>(wall).count()};
 }
 
 }  // namespace isophote

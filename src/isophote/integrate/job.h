@@ -23,7 +23,8 @@ struct Progress {
   bool stop() const { return cancelled && cancelled(); }
 };
 
-/// One picture to compute: what it shows, by which method, and on whose threads. Results depend on everything but `parallel`.
+/// One picture to compute: what it shows, by which method, and on whose threads. Results depend on everything but
+/// `parallel`.
 struct Job {
   World world;
   Camera camera{};
@@ -37,7 +38,8 @@ struct Job {
 
   /// The stream of one sample of one pixel; the same in every pass over it, so that all meet the same first point.
   Sampler sampler(int x, int y, int sample) const {
-    const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
+    const auto pixel =
+        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
     return {Purpose::camera, seed, pixel, static_cast<std::uint32_t>(sample)};
   }
   Ray camera_ray(int x, int y, Sampler& stream) const {
@@ -48,7 +50,8 @@ struct Job {
   float pixel_footprint(float path_length) const { return camera.pixel_angle(height) * path_length; }
 };
 
-/// Runs body(i, counts) for i in [0, count) on the job's threads, each worker flushing denormals, and returns the rays of all.
+/// Runs body(i, counts) for i in [0, count) on the job's threads, each worker flushing denormals, and returns the rays
+/// of all.
 RayCounts for_each(const ParallelFor& parallel, std::size_t count, std::size_t grain,
                    const std::function<void(std::size_t, RayCounts&)>& body);
 

@@ -22,7 +22,9 @@ struct RadiusScale {
     low = radii[radii.size() / 20];
     high = std::max(radii[radii.size() - 1 - radii.size() / 20], low + 1e-3f);
   }
-  Rgb color(float radius) const { return false_colour(std::clamp((std::log(radius) - low) / (high - low), 0.0f, 1.0f)); }
+  Rgb color(float radius) const {
+    return false_colour(std::clamp((std::log(radius) - low) / (high - low), 0.0f, 1.0f));
+  }
 };
 
 /// The colour of a dot or rim at this place, if one is drawn there; dots lie over rims.

@@ -31,11 +31,9 @@ Seen shade_sample(const Job& job, const RecordCache* cache, const Ray& ray, cons
   out.normal = point.bsdf.frame.n;
   if (seen.depth >= job.world.max_depth) return result;
   Shaded light;
-  if (!cache) {
+  if (!cache || seen.depth + 1 >= job.world.max_depth) {
     const Scattered path = scatter(job.world, point, wo, seen.depth, stream, counts);
     light = {path.direct, path.indirect, path.irradiance, true};
-  } else if (seen.depth + 1 >= job.world.max_depth) {
-    light.direct = scatter(job.world, point, wo, seen.depth, stream, counts).direct;
   } else if (uncovered == Uncovered::skip && point.bsdf.has_diffuse() && !cache->covers(query_at(point))) {
     return {};
   } else {

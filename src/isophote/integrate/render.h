@@ -14,15 +14,17 @@ struct RenderReport {
   bool cancelled = false;
 };
 
-/// Renders all samples: by path tracing where `cache` is null, else by reading it. If the host cancels, rows without a sample get one,
-/// of what is covered.
+/// Renders all samples: by path tracing where `cache` is null, else by reading it. If the host cancels, rows without a
+/// sample get one, of what is covered.
 RenderReport render(const Job& job, const RecordCache* cache, Film& film);
 
-/// The picture as far as `cache` covers it, one sample in every stride x stride pixels: a preview while the cache is built.
+/// The picture as far as `cache` covers it, one sample in every stride x stride pixels: a preview while the cache is
+/// built.
 RgbImage coarse_picture(const Job& job, const RecordCache& cache, int stride);
 
-/// Ward's own order [Ward, Rubinstein, Clear 1988]: one pass, scanline by scanline, on one thread; a sample that no record serves adds a
-/// record at once, and each sample uses the records that exist then. `build` receives the time and rays spent on records.
+/// Ward's own order [Ward, Rubinstein, Clear 1988]: one pass, scanline by scanline, on one thread; a sample that no
+/// record serves adds a record at once, and each sample uses the records that exist then. `build` receives the time and
+/// rays spent on records.
 struct LazyReport {
   RenderReport final;
   RayCounts build_rays;

@@ -51,9 +51,11 @@ void add_mesh(Hasher& h, const Mesh& m) {
 }
 
 void add_material(Hasher& h, const Material& m) {
-  h.add(m.base_color), h.add(m.base_alpha), h.add(m.metallic), h.add(m.roughness), h.add(m.normal_scale), h.add(m.emission);
-  for (const TextureUse* t : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture,
-                              &m.specular_texture, &m.specular_color_texture, &m.transmission_texture})
+  h.add(m.base_color), h.add(m.base_alpha), h.add(m.metallic), h.add(m.roughness), h.add(m.normal_scale),
+      h.add(m.emission);
+  for (const TextureUse* t :
+       {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture,
+        &m.specular_texture, &m.specular_color_texture, &m.transmission_texture})
     h.add(*t);
   h.add(std::uint64_t{m.double_sided}), h.add(static_cast<std::uint64_t>(m.alpha)), h.add(m.alpha_cutoff);
   h.add(m.specular), h.add(m.specular_color), h.add(m.ior), h.add(m.transmission);

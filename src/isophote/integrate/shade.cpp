@@ -1,6 +1,7 @@
 #include "isophote/integrate/shade.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace isophote {
 namespace {
@@ -31,6 +32,10 @@ void add_glossy(const World& world, const RecordCache& cache, const SurfacePoint
 Shaded shade(const World& world, const RecordCache& cache, const SurfacePoint& point, const Vec3& wo, int depth,
              Sampler& sampler, RayCounts& counts) {
   Shaded result;
+  if (depth > 0 && world.max_depth < std::numeric_limits<int>::max()) {
+    const Scattered path = scatter(world, point, wo, depth, sampler, counts);
+    return {path.direct, path.indirect, path.irradiance, true};
+  }
   if (point.bsdf.has_diffuse()) {
     const std::optional<Rgb> irradiance = cache.interpolate(query_at(point));
     if (!irradiance) {

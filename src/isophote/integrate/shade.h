@@ -11,8 +11,9 @@ struct Shaded {
   bool covered = true;  ///< false: no record served, the sample went on as one unbiased path
 };
 
-/// Direct light by light sampling; the diffuse lobe's indirect light from `cache`; the glossy lobe by one ray, at whose hit the same
-/// rule applies. `depth` counts scattering events before this one.
+/// Direct light by light sampling; the diffuse lobe's indirect light from `cache`; the glossy lobe by one ray, at whose
+/// hit the same rule applies. Under a limit of depth a cached value holds the events that are left after the first, so
+/// that the cache is read at depth 0 alone and paths go on elsewhere. `depth` counts scattering events before this one.
 Shaded shade(const World& world, const RecordCache& cache, const SurfacePoint& point, const Vec3& wo, int depth,
              Sampler& sampler, RayCounts& counts);
 

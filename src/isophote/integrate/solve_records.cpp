@@ -28,13 +28,18 @@ Solved build_with_records(Job& job, std::size_t wanted) {
     Solved attempt{empty_cache(job), {}};
     attempt.report = build_in_rounds(job, attempt.cache);
     rays += attempt.report.rays;
+    if (attempt.report.cancelled) {
+      best = std::move(attempt), best_a = job.method.settings.a;
+      break;
+    }
     const double log_records = std::log(static_cast<double>(std::max<std::size_t>(attempt.cache.records().size(), 1)));
     const double miss = std::abs(log_records - target);
     if (!best || miss < best_miss) best = std::move(attempt), best_miss = miss, best_a = job.method.settings.a;
-    if (miss < close_enough || best->report.cancelled) break;
+    if (miss < close_enough) break;
     (log_records > target ? above : below) = Try{log_a, log_records};
     if (above && below)
-      log_a = above->log_a + (below->log_a - above->log_a) * (above->log_records - target) / (above->log_records - below->log_records);
+      log_a = above->log_a +
+              (below->log_a - above->log_a) * (above->log_records - target) / (above->log_records - below->log_records);
     else
       log_a += 0.6 * (log_records - target);  // records grow about as a^-1.7
   }

@@ -221,7 +221,8 @@ void take_memory(const tinygltf::Model& model, const tinygltf::Primitive& primit
                  const std::string& place) {
   constexpr std::uint64_t bytes_per_vertex =
       2 * sizeof(Vec3) + sizeof(Vec3) + sizeof(float) + 2 * sizeof(Vec2) + sizeof(Rgba);
-  constexpr std::uint64_t bytes_per_triangle = sizeof(Triangle) + 100;  // and what Embree builds over it: an upper bound, see bench/run memory
+  constexpr std::uint64_t bytes_per_triangle =
+      sizeof(Triangle) + 100;  // and what Embree builds over it: an upper bound, see bench/run memory
   const auto count = [&](int accessor) { return model.accessors[static_cast<std::size_t>(accessor)].count; };
   const std::size_t vertices = count(primitive.attributes.at("POSITION"));
   const std::size_t corners = primitive.indices >= 0 ? count(primitive.indices) : vertices;

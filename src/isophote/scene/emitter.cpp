@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "isophote/core/error.h"
 #include "isophote/sampling/warp.h"
 #include "isophote/scene/environment.h"
 #include "isophote/scene/near_grid.h"
@@ -128,6 +130,9 @@ Emitters::Impl::Impl(const Scene& scene_) : scene(scene_), environment(scene_.en
   for (const PunctualLight& light : scene.lights) weights.push_back(power(light, radius));
   for (const auto& peak : environment.peaks()) weights.push_back(pi * radius * radius * peak.power);
   weights.push_back(pi * radius * radius * environment.rest_power());
+  // The choice is made on a grid of 2^24 numbers, which must leave some to each.
+  if (weights.size() > 1u << 20)
+    throw UserError("the scene has more than 1048576 emissive triangles, lights and sun-like texels");
   make_tables(std::move(weights));
 
   std::vector<NearGrid::Place> places;
@@ -180,6 +185,13 @@ void Emitters::Impl::add_triangles(std::vector<double>& weights) {
 void Emitters::Impl::make_tables(std::vector<double> weights) {
   const double rest_weight = weights.back();
   weights.pop_back();
+  // Part of the choice goes to all emitters alike: none is so weak beside the others that it could not be chosen.
+  constexpr double alike = 0.1;
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const auto emitting =
+      static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
+  for (double& w : weights)
+    if (w > 0) w = (1 - alike) * w + alike * total / emitting;
   direct = AliasTable(weights);
   double sum = 0;
   for (const double w : weights) sum += w;

@@ -20,11 +20,11 @@ struct LightSample {
   bool sampled_directly = true;
 };
 
-/// All that emits, chosen in proportion to power: emissive triangles (textures averaged over them), punctual lights and
-/// the environment, which is split in two: peaks (sun-like texels) and the rest. Lamps, punctual lights and peaks are
-/// `sampled_directly`: their light scattered once is direct light. The rest of the environment is not: it is seen by
-/// gathers and cached. Never both. The rest is chosen with a chance of at most 1/2 beside others: power cannot know how
-/// much of the sky is hidden, and rays chosen by the BSDF find it too.
+/// All that emits, chosen by power, with a tenth of the choice to all alike: emissive triangles (textures averaged over
+/// them), punctual lights and the environment, which is split in two: peaks (sun-like texels) and the rest. Lamps,
+/// punctual lights and peaks are `sampled_directly`: their light scattered once is direct light. The rest of the
+/// environment is not: it is seen by gathers and cached. Never both. The rest is chosen with a chance of at most 1/2
+/// beside others: power cannot know how much of the sky is hidden, and rays chosen by the BSDF find it too.
 class Emitters {
  public:
   /// What `sample` chooses among.

@@ -100,14 +100,12 @@ Rgb absorption(const Material& material) {
   return {channel(c.r), channel(c.g), channel(c.b)};
 }
 
-/// By how much barycentric coordinates must be off the edges for a point to lie inside the triangle in spite of
-/// rounding: a point that rounds onto the next wall sees through it. `size` is twice the area; its quotient by the
-/// longest edge the least height.
-float edge_inset(const Vec3& p, const Vec3& e1, const Vec3& e2, float size) {
+/// How far within its plane a point is pulled back towards where its ray came from: a point that rounds onto the next
+/// wall, or that lies on an edge where the ray tracer chose between equally near walls, would else see what is behind
+/// them.
+float pull_back(const Vec3& p, const Vec3& e1, const Vec3& e2) {
   const float longest = std::sqrt(std::max({length_squared(e1), length_squared(e2), length_squared(e2 - e1)}));
-  const float magnitude = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + longest;
-  const float needed = 0x1p-21f * magnitude * longest;
-  return needed * 6 < size ? needed / size : 1 / 6.0f;
+  return 0x1p-18f * (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + longest);
 }
 
 /// Everything of the lobes but the frame.
@@ -153,9 +151,9 @@ SurfacePoint surface_point(const Scene& scene, const Ray& ray, const Hit& hit) {
   point.triangle = hit.triangle;
   const Vec3 across = cross(e1, e2);
   const float size = length(across);
-  const float inset = edge_inset(p0, e1, e2, size), shrink = 1 - 3 * inset;
-  point.position = p0 + e1 * (inset + hit.u * shrink) + e2 * (inset + hit.v * shrink);
   const Vec3 winding = size > 0 ? across / size : wo;
+  const Vec3 within_plane = wo - winding * dot(wo, winding);
+  point.position = p0 + e1 * hit.u + e2 * hit.v + within_plane * pull_back(p0, e1, e2);
   point.front = dot(winding, wo) >= 0;
   point.geometric_normal = point.front ? winding : -winding;
 

@@ -9,9 +9,6 @@
 namespace isophote {
 namespace {
 
-/// Of the scene's diagonal: what is left of a radius where everything would shrink it to nothing, as in a black corner.
-constexpr float smallest_radius = 1e-5f;
-
 /// E / |grad E| for the channel in which it is least; infinity where nothing changes.
 float gradient_radius(const Jet<Rgb>& jet) {
   float radius = std::numeric_limits<float>::infinity();
@@ -35,18 +32,34 @@ void shrink(Record& record, float unscaled, float a) {
 
 /// The record takes its own limit from all its neighbours first, and then limits them: among records that face alike
 /// the outcome is the largest radii that keep the bound, whatever the order.
-void clamp_to_neighbours(std::span<Record> earlier, Record& record, float a) {
-  const auto alike = [&](const Record& other) { return dot(record.normal, other.normal) > 0; };
-  float unscaled = record.footprint.unscaled;
+/// What one record lets another that faces alike have: no more than its own radius and their distance. Infinite where
+/// it sets no limit under `unscaled`, which is told without a root.
+float limit_by(const Record& neighbour, const Vec3& position, const Vec3& normal, float unscaled) {
+  const float room = unscaled - neighbour.footprint.unscaled;
+  const Vec3 between = position - neighbour.position;
+  if (!(room > 0) || length_squared(between) >= room * room || dot(normal, neighbour.normal) <= 0)
+    return std::numeric_limits<float>::infinity();
+  return neighbour.footprint.unscaled + length(between);
+}
+
+/// Lets `neighbour` limit `record`.
+void clamp(Record& record, const Record& neighbour, float a) {
+  const float limit = limit_by(neighbour, record.position, record.normal, record.footprint.unscaled);
+  if (limit < record.footprint.unscaled) shrink(record, limit, a);
+}
+
+/// Each pass over the earlier records, of which there may be many, serves all the fresh ones, of which there are few.
+void clamp_to_neighbours(std::span<Record> earlier, std::span<Record> fresh, float a) {
   for (const Record& other : earlier)
-    if (alike(other))
-      unscaled = std::min(unscaled, other.footprint.unscaled + length(record.position - other.position));
-  if (unscaled < record.footprint.unscaled) shrink(record, unscaled, a);
+    for (Record& record : fresh) clamp(record, other, a);
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) clamp(fresh[i], fresh[k], a);
+    for (std::size_t k = 0; k < i; ++k) clamp(fresh[k], fresh[i], a);
+  }
   for (Record& other : earlier) {
-    const float limit = unscaled + length(record.position - other.position);
-    if (limit >= other.footprint.unscaled || !alike(other)) continue;
-    shrink(other, limit, a);
-    settle_gradient(other, a);
+    const float before = other.footprint.unscaled;
+    for (const Record& record : fresh) clamp(other, record, a);
+    if (other.footprint.unscaled < before) settle_gradient(other, a);
   }
 }
 
@@ -72,10 +85,9 @@ Footprint bounded_split_sphere(const Jet<Rgb>& jet, const View& view, float a, c
 
 void settle_bounded(std::span<Record> records, std::span<const std::uint32_t> fresh, float a,
                     const RadiusBounds& bounds) {
-  for (const std::uint32_t i : fresh) {
-    if (bounds.neighbours) clamp_to_neighbours(records.first(i), records[i], a);
-    settle_gradient(records[i], a);
-  }
+  if (bounds.neighbours && !fresh.empty())
+    clamp_to_neighbours(records.first(fresh.front()), records.subspan(fresh.front(), fresh.size()), a);
+  for (const std::uint32_t i : fresh) settle_gradient(records[i], a);
 }
 
 }  // namespace isophote

@@ -25,8 +25,8 @@ struct RadiusBounds {
 Footprint bounded_split_sphere(const Jet<Rgb>& jet, const View& view, float a, const RadiusBounds& bounds);
 
 /// What records do to each other and to themselves once inserted: neighbour clamping [Krivanek 2006], where asked, and
-/// the limit on extrapolation. `fresh` are the ids that the others have not met, ascending, each after all earlier
-/// records. Costs one distance for each fresh record and earlier one.
+/// the limit on extrapolation. `fresh` are the ids of the newest records, ascending and without gaps, which the others
+/// have not met. Costs one distance for each fresh record and earlier one.
 void settle_bounded(std::span<Record> records, std::span<const std::uint32_t> fresh, float a,
                     const RadiusBounds& bounds);
 

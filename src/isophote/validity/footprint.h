@@ -44,6 +44,9 @@ struct Footprint {
   }
 };
 
+/// Of the scene's diagonal: what is left of a radius where everything would shrink it to nothing, as in a black corner.
+inline constexpr float smallest_radius = 1e-5f;
+
 /// How a record is seen when its footprint is decided.
 struct View {
   float pixel = 0;        ///< length that a pixel spans at the record, along the path through mirrors and glass

@@ -9,7 +9,7 @@ float split_sphere_radius(float harmonic_mean, float a) { return harmonic_mean *
 
 Footprint split_sphere(const Jet<Rgb>& jet, const View& view, float a) {
   const float r = std::min(jet.distances.harmonic_mean, view.scene_scale);
-  Footprint footprint = Footprint::disk(split_sphere_radius(r, a), 1 / a);
+  Footprint footprint = Footprint::disk(std::max(split_sphere_radius(r, a), smallest_radius * view.scene_scale), 1 / a);
   footprint.unscaled = r;
   return footprint;
 }
