@@ -86,6 +86,22 @@ TEST(MaxDepth, OneIsDirectLightAloneAndMakesNoRecords) {
 }
 
 /// In a furnace each event after the first adds one term to the series.
+/// Light of the sky scattered once is indirect; what a mirror shows has one event less left.
+TEST(MaxDepth, HoldsForSkyAndMirrorsAsForPaths) {
+  const Stage plate("plate.toml"), gallery("gallery.glb");
+  for (const auto& [stage, camera, depth] : {std::tuple{&plate, "", 1}, {&plate, "", 2}, {&gallery, "mirror", 3}}) {
+    SCOPED_TRACE(depth);
+    Job job = stage->job(method("bounded"), 64, 48, 128, camera);
+    job.strata = Strata::about(800);
+    job.world.max_depth = depth;
+    const double cached = mean_luminance(render_all(job).layer("indirect"));
+    job.method = method("path");
+    job.seed = 3;
+    const double path = mean_luminance(render_all(job).layer("indirect"));
+    EXPECT_NEAR(cached / path, 1, 0.015);
+  }
+}
+
 TEST(MaxDepth, CutsTheSeriesForCachesAsForPaths) {
   const Stage stage(scenes::room(scenes::emissive(Rgb(0.5f), Rgb(1))));
   for (const int depth : {2, 3}) {

@@ -160,7 +160,7 @@ TEST(Emitters, EnvironmentIsOrientedAsDocumented) {
   EXPECT_NEAR(look({-1, 0, 0}).r, 3.5f, 1e-4);
 }
 
-TEST(Emitters, ChooseByPower) {
+TEST(Emitters, ChooseByPowerAndATenthAlike) {
   const Scene scene = two_lamps();
   const Emitters emitters(scene);
   // pi L A, twice for two sides; the parallelogram's area is |(0,1,1) x (1/2,0,1)| = sqrt(1 + 1/4 + 1/4).
@@ -169,7 +169,26 @@ TEST(Emitters, ChooseByPower) {
   constexpr int draws = 1 << 16;
   for (int i = 0; i < draws; ++i)
     count += emitters.sample({}, static_cast<float>(i) / draws, {0.3f, 0.6f}).direction.y > 0.5f;
-  EXPECT_NEAR(count / double(draws), warm / (warm + cool), 1e-4);
+  EXPECT_NEAR(count / double(draws), 0.05 + 0.9 * warm / (warm + cool), 1e-4);
+}
+
+TEST(Emitters, TheWeakestIsNotForgottenBesideTheStrongest) {
+  Scene scene = two_lamps();
+  scene.materials[0].emission = Rgb(1e9f);
+  PunctualLight candle;
+  candle.position = {5, 5, 5};
+  candle.intensity = Rgb(1e-3f);
+  scene.lights.push_back(candle);
+  const Emitters emitters(scene);
+  int found = 0;
+  constexpr int draws = 1 << 12;
+  for (int i = 0; i < draws; ++i) {
+    const LightSample light = emitters.sample({}, static_cast<float>(i) / draws, {0.3f, 0.6f});
+    if (!light.delta) continue;
+    ++found;
+    EXPECT_NEAR(light.pdf, 0.1 / 5, 1e-4);  // four triangles and the candle
+  }
+  EXPECT_NEAR(found / double(draws), 0.1 / 5, 1e-3);
 }
 
 TEST(Emitters, TexturedLampIsChosenByItsMeanAndExactAtThePoint) {

@@ -69,7 +69,7 @@ RenderSettings merged_settings(const RenderRequest& request, const std::vector<S
 void check_flags(const RenderRequest& request, const Method& method) {
   std::string deciding;
   for (const auto& [name, value] : request.settings) {
-    if (name == "error" || name == "a" || name == "records") {
+    if (name == "a" || name == "records") {
       if (!deciding.empty())
         throw UsageError(fmt::format("--{} and --{} both decide how many records there are: give one", deciding, name));
       deciding = name;

@@ -100,12 +100,25 @@ Rgb absorption(const Material& material) {
   return {channel(c.r), channel(c.g), channel(c.b)};
 }
 
-/// How far within its plane a point is pulled back towards where its ray came from: a point that rounds onto the next
-/// wall, or that lies on an edge where the ray tracer chose between equally near walls, would else see what is behind
-/// them.
-float pull_back(const Vec3& p, const Vec3& e1, const Vec3& e2) {
+/// The barycentric coordinates of a hit, moved off the triangle's edges by more than rounding could move a point. At an
+/// edge walls meet, and a point that rounds onto the wrong side of the next wall sees through it. The right side is the
+/// one the ray came from, which may lie beyond the edge: where several walls are equally near, the ray tracer may give
+/// one behind another.
+Vec2 off_edges(const Hit& hit, const Vec3& p, const Vec3& e1, const Vec3& e2, const Vec3& normal, float size,
+               const Vec3& wo) {
   const float longest = std::sqrt(std::max({length_squared(e1), length_squared(e2), length_squared(e2 - e1)}));
-  return 0x1p-18f * (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + longest);
+  const float magnitude = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + longest;
+  // The least height is size / longest; a sixth of it at most.
+  const float needed = 0x1p-22f * magnitude * longest;
+  const float inset = needed * 6 < size ? needed / size : 1 / 6.0f;
+  // How the coordinates of the second and third vertex grow on the way back along the ray.
+  const float grow_u = dot(cross(wo, e2), normal), grow_v = dot(cross(e1, wo), normal);
+  const auto settle = [inset](float coordinate, float growth) {
+    return coordinate < inset ? std::copysign(inset, growth) : coordinate;
+  };
+  float u = settle(hit.u, grow_u), v = settle(hit.v, grow_v);
+  const float rest = settle(1 - u - v, -grow_u - grow_v), scale = (1 - rest) / (u + v);
+  return {u * scale, v * scale};
 }
 
 /// Everything of the lobes but the frame.
@@ -152,8 +165,8 @@ SurfacePoint surface_point(const Scene& scene, const Ray& ray, const Hit& hit) {
   const Vec3 across = cross(e1, e2);
   const float size = length(across);
   const Vec3 winding = size > 0 ? across / size : wo;
-  const Vec3 within_plane = wo - winding * dot(wo, winding);
-  point.position = p0 + e1 * hit.u + e2 * hit.v + within_plane * pull_back(p0, e1, e2);
+  const Vec2 at_uv = off_edges(hit, p0, e1, e2, winding, size, wo);
+  point.position = p0 + e1 * at_uv.x + e2 * at_uv.y;
   point.front = dot(winding, wo) >= 0;
   point.geometric_normal = point.front ? winding : -winding;
 
