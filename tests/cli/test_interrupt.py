@@ -44,7 +44,7 @@ class Interrupt(ProgramTest):
             self.assertEqual(stats["uncovered"], 0)
 
     def test_in_the_final_pass_every_pixel_has_a_sample(self):
-        process = self.start("render", BOX, "--size", "128x128", "--method", "path", "--spp", "1000000", *OUTPUTS)
+        process = self.start("render", BOX, "--size", "128x128", "--method", "path", "--spp", "65536", *OUTPUTS)
         self.wait_for(process, "final")
         process.send_signal(signal.SIGINT)
         self.assertEqual(self.finish(process), 1)
