@@ -1,4 +1,5 @@
 """Runs the program and reads what it measured."""
+import hashlib
 import json
 import os
 import pathlib
@@ -19,7 +20,9 @@ class View:
         return [str(self.scene), "--size", self.size]
 
     def references(self):
-        paths = [BUILD / f"{self.name}-{self.size}-{self.reference_samples}-{half}.exr" for half in (1, 2)]
+        # References outlive builds: delete build/bench after a change to the path tracer.
+        content = hashlib.sha256(self.scene.read_bytes()).hexdigest()[:12]
+        paths = [BUILD / f"{self.name}-{self.size}-{self.reference_samples}-{content}-{half}.exr" for half in (1, 2)]
         for half, path in enumerate(paths, 1):
             if not path.exists():
                 render(self, "--method", "path", "--spp", self.reference_samples, "--seed", 7000 + half, output=path)
