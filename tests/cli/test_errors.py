@@ -1,4 +1,5 @@
 import os
+from pathlib import Path
 
 from program import BOX, SCENES, ProgramTest, quick
 
@@ -79,7 +80,7 @@ class BadInput(ProgramTest):
         self.refused_scene("folder.glb", "folder.glb")
 
     def test_broken_gltf(self):
-        whole = open(BOX, "rb").read()
+        whole = Path(BOX).read_bytes()
         for size in (4, 12, 20, 100, len(whole) // 2, len(whole) - 1):
             with self.subTest(size=size):
                 self.write("cut.glb", whole[:size])
@@ -123,7 +124,7 @@ class BadInput(ProgramTest):
 
     def test_the_older_picture_stays(self):
         self.write("out.exr", "older")
-        self.write("cut.glb", open(BOX, "rb").read()[:1000])
+        self.write("cut.glb", Path(BOX).read_bytes()[:1000])
         self.refused_scene("cut.glb", "cut.glb")
         self.assertEqual((self.folder / "out.exr").read_bytes(), b"older")
 

@@ -46,30 +46,34 @@ using S = RenderSettings;  // the two parameter types of every line below
 using T = const std::string&;
 
 constexpr Option table[] = {
-    {"film", "size", "WxH", "picture size in pixels; keeps the vertical field of view", size},
-    {"film", "camera", "CAMERA", "name or index of a camera of the scene, or eye;target;fov",
+    {"film", "size", "WxH", "picture size in pixels (default: 512 high); keeps the vertical field of view", size},
+    {"film", "camera", "CAMERA",
+     "name or index of a camera of the scene (default: its first), or 'x,y,z;x,y,z;degrees' for eye, target, field of "
+     "view",
      [](S& s, T t) { s.camera = t; }},
-    {"film", "spp", "N", "samples a pixel", [](S& s, T t) { s.samples = number<int>(t, 1, 1 << 16); }},
-    {"film", "exposure", "EV|auto", "stops, for PNG pictures",
+    {"film", "spp", "N", "samples a pixel (default: 16)", [](S& s, T t) { s.samples = number<int>(t, 1, 1 << 16); }},
+    {"film", "exposure", "EV|auto", "stops, for PNG pictures (default: auto)",
      [](S& s, T t) { s.exposure = t == "auto" ? std::nullopt : std::optional(number<float>(t, -100, 100)); }},
-    {"method", "method", "NAME", "one of those that 'isophote methods' lists",
+    {"method", "method", "NAME", "one of those that 'isophote methods' lists (default: cached)",
      [](S& s, T t) { s.method = find_method(t).name; }},
     {"method", "estimator", "NAME", "another estimator than the method's",
      [](S& s, T t) { s.estimator = find_estimator(t).name; }, true},
     {"method", "metric", "NAME", "another metric than the method's", [](S& s, T t) { s.metric = find_metric(t).name; },
      true},
-    {"method", "error", "E", "wanted mean relative error of the cached irradiance",
+    {"method", "error", "E",
+     "wanted mean relative error of the cached irradiance (default: 0.02); decides the threshold",
      [](S& s, T t) { s.error = number<double>(t, 1e-5, 10), s.a.reset(), s.records.reset(); }},
     {"method", "a", "A", "the metric's own threshold, in place of --error",
      [](S& s, T t) { s.a = number<float>(t, 1e-4, 1), s.error.reset(), s.records.reset(); }, true},
     {"method", "records", "N", "solve for the threshold that gives about N records",
      [](S& s, T t) { s.records = number<int>(t, 1, 10'000'000), s.error.reset(), s.a.reset(); }, true},
-    {"method", "rays", "N", "gather rays of a record", [](S& s, T t) { s.rays = number<int>(t, 12, 1 << 24); }},
+    {"method", "rays", "N", "gather rays of a record (default: 800)",
+     [](S& s, T t) { s.rays = number<int>(t, 12, 1 << 24); }},
     {"method", "secondary", "on|off", "do gather rays read the cache where they hit?",
      [](S& s, T t) { s.secondary = on_off(t); }, true},
     {"method", "max-depth", "N", "scattering events after the camera; 1 is direct light (default: no limit)",
      [](S& s, T t) { s.max_depth = number<int>(t, 1, 1 << 30); }},
-    {"method", "order", "rounds|lazy", "how the cache is built",
+    {"method", "order", "rounds|lazy", "how the cache is built (default: rounds)",
      [](S& s, T t) {
        if (t != "rounds" && t != "lazy") throw UsageError(fmt::format("wants rounds or lazy, not '{}'", t));
        s.lazy = t == "lazy";
@@ -89,7 +93,8 @@ constexpr Option table[] = {
      [](S& s, T t) { s.bound_gradient = on_off(t); }, true},
     {"method", "bound-neighbours", "on|off", "bound radii by those of neighbours",
      [](S& s, T t) { s.bound_neighbours = on_off(t); }, true},
-    {"method", "seed", "N", "of the random numbers", [](S& s, T t) { s.seed = number<std::uint64_t>(t, 0, 9e15); }},
+    {"method", "seed", "N", "of the random numbers (default: 0)",
+     [](S& s, T t) { s.seed = number<std::uint64_t>(t, 0, 9e15); }},
 };
 
 Vec3 point(const std::string& text) {

@@ -16,6 +16,7 @@ std::uint64_t Statistics::peak_memory() {
 }
 
 void Statistics::print() const {
+  if (cancelled) fmt::print("interrupted: the picture is not finished\n");
   fmt::print("{} x {} pixels, {} triangles, method {}\n", width, height, triangles, method);
   if (!estimator.empty()) {
     fmt::print("  records    {} ({} x {} rays each, {} order{}), {} of {} samples uncovered\n", records, strata.polar,
@@ -36,6 +37,10 @@ void Statistics::print() const {
         "bias {:+.3g}; the measurement's own noise is {:.2g})\n",
         error_asked ? fmt::format("asked {:.3g}, ", *error_asked) : "", error.mean, error.points, error.median,
         error.p95, error.bias, error.noise);
+  if (error.points > 0 && error_asked && error.mean > 1.5 * *error_asked)
+    fmt::print("             above the asked error{}\n", error.noise > *error_asked
+                                                             ? ", as far as the measurement's noise can tell"
+                                                             : "; more --rays lower the records' own noise");
 }
 
 void Statistics::write_json(const std::string& path) const {
