@@ -171,7 +171,8 @@ TEST(Cancelled, InTheFinalPassTheOtherRowsGetOneSample) {
     const RenderReport report = render(job, job.method.caches() ? &cache : nullptr, film);
     EXPECT_TRUE(report.cancelled);
     for (int y = 0; y < job.height; ++y) EXPECT_EQ(film.samples(y), y < 4 * 3 ? 2 : 1);
-    for (const float alpha : film.exr().find("A")->values) EXPECT_GE(alpha, 0);
+    const ExrFile picture = film.exr();
+    for (const float alpha : picture.find("A")->values) EXPECT_GE(alpha, 0);
     EXPECT_GT(mean_luminance(film.color()), 0.01);
   }
 }
