@@ -116,9 +116,9 @@ Vec2 off_edges(const Hit& hit, const Vec3& p, const Vec3& e1, const Vec3& e2, co
   const auto settle = [inset](float coordinate, float growth) {
     return coordinate < inset ? std::copysign(inset, growth) : coordinate;
   };
-  float u = settle(hit.u, grow_u), v = settle(hit.v, grow_v);
-  const float rest = settle(1 - u - v, -grow_u - grow_v), scale = (1 - rest) / (u + v);
-  return {u * scale, v * scale};
+  const float u = settle(hit.u, grow_u), v = settle(hit.v, grow_v), rest = 1 - u - v;
+  const float half = 0.5f * (rest - settle(rest, -grow_u - grow_v));
+  return {u + half, v + half};
 }
 
 /// Everything of the lobes but the frame.
