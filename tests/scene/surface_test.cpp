@@ -33,6 +33,21 @@ void expect_near(const Vec3& a, const Vec3& b, float tolerance = 1e-6f) {
   EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
 }
 
+/// Too small to stay off the edges by more than rounding, or hit exactly on an edge or corner: finite, and near.
+TEST(SurfacePoint, SmallTrianglesAndTheirEdges) {
+  for (const float size : {1e-7f, 1e-5f, 1.0f}) {
+    Square square(scenes::diffuse(Rgb(0.5f)));
+    for (Vec3& p : square.mesh().positions) p = Vec3{3, 4, 5} + p * size;
+    for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{0.5f, 0.5f}, Vec2{0, 0.5f}, Vec2{0.3f, 0.3f}})
+      for (const Vec3& from : {Vec3{1, 0, -1}, Vec3{-1, 0, -1}, Vec3{1, -1, -0.1f}, Vec3{-1, 1, 1}, Vec3{0, 0, -1}}) {
+        square.hit.u = uv.x, square.hit.v = uv.y;
+        const Vec3 position = square.from(from).position;
+        ASSERT_TRUE(is_finite(position)) << size << " " << uv.x << " " << uv.y;
+        EXPECT_LT(length(position - Vec3{3, 4, 5}), 2 * size + 1e-5f);
+      }
+  }
+}
+
 TEST(SurfacePoint, FacesTheRay) {
   const Square square(scenes::diffuse(Rgb(0.5f)));
   const SurfacePoint above = square.from({0, 0.3f, -1}), below = square.from({0, 0.3f, 1});
