@@ -43,18 +43,7 @@ class BareScene {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit query{};
-    query.ray = {ray.origin.x,
-                 ray.origin.y,
-                 ray.origin.z,
-                 ray.near,
-                 ray.direction.x,
-                 ray.direction.y,
-                 ray.direction.z,
-                 0,
-                 ray.far,
-                 ~0u,
-                 0,
-                 0};
+    query.ray = embree_ray(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
@@ -66,23 +55,17 @@ class BareScene {
   bool occluded(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRay query{ray.origin.x,
-                 ray.origin.y,
-                 ray.origin.z,
-                 ray.near,
-                 ray.direction.x,
-                 ray.direction.y,
-                 ray.direction.z,
-                 0,
-                 ray.far,
-                 ~0u,
-                 0,
-                 0};
+    RTCRay query = embree_ray(ray);
     rtcOccluded1(scene_, &context, &query);
     return query.tfar < 0;
   }
 
  private:
+  static RTCRay embree_ray(const Ray& ray) {
+    const Vec3 &o = ray.origin, &d = ray.direction;
+    return {o.x, o.y, o.z, ray.near, d.x, d.y, d.z, 0, ray.far, ~0u, 0, 0};
+  }
+
   RTCDevice device_;
   RTCScene scene_;
 };
