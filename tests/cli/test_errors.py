@@ -11,8 +11,8 @@ class BadUsage(ProgramTest):
         self.refused(2, ("render", BOX, *quick("-o", "out.exr", *flags)), *mentions)
 
     def test_verbs_and_flags(self):
-        self.refused(2, ())
-        self.refused(2, ("rendr",))
+        self.refused(2, (), "render, compare, methods")
+        self.refused(2, ("rendr",), "rendr")
         self.refused(2, ("render",))
         self.refused(2, ("render", BOX))
         self.refused(2, ("compare", "a.exr"))

@@ -39,7 +39,7 @@ int compare(const CompareRequest& request) {
     fmt::print("RMSE            {:.6g}  ({:.3f}% of the reference's mean)\n", d.rmse, 100 * d.relative_rmse);
     fmt::print("relative MSE    {:.6g}\n", d.relative_mse);
     fmt::print("bias            {:+.3f}%\n", 100 * d.bias);
-    fmt::print("8x8-block error {:.3f}%\n", 100 * d.block_error);
+    fmt::print("{:<15} {:.3f}%\n", fmt::format("{0}x{0}-block error", 8 * request.block), 100 * d.block_error);
     fmt::print("SSIM            {:.5f}\n", d.ssim);
   }
   const bool failed = request.fail_above >= 0 && !(d.relative_rmse <= request.fail_above);

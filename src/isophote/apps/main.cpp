@@ -51,7 +51,6 @@ void add_compare(CLI::App& program, app::CompareRequest& request) {
 
 int run(int argc, char** argv) {
   CLI::App program("Isophote: global illumination by caching light and its derivatives", "isophote");
-  program.require_subcommand(1);
   program.set_version_flag("--version", ISOPHOTE_VERSION);
   app::RenderRequest render_request;
   app::CompareRequest compare_request;
@@ -66,7 +65,8 @@ int run(int argc, char** argv) {
   }
   if (program.got_subcommand("render")) return app::render(render_request);
   if (program.got_subcommand("compare")) return app::compare(compare_request);
-  return app::methods();
+  if (program.got_subcommand("methods")) return app::methods();
+  throw UsageError("wants one of render, compare, methods (see isophote --help)");
 }
 
 }  // namespace

@@ -277,6 +277,7 @@ class Rendering {
       s.estimator = job.method.estimator->name;
       s.metric = job.method.metric->name;
       s.a = job.method.settings.a;
+      s.bounds = describe(job.method.settings.bounds);
     }
     s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
     // Where a threshold or a number of records was given, no error was asked for.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -148,6 +149,19 @@ Method chosen_method(const RenderSettings& s) {
   if (method.secondary && s.max_depth) throw UsageError("--secondary on has no limit of depth: leave out --max-depth");
   check_combination(method);
   return method;
+}
+
+std::string describe(const RadiusBounds& b) {
+  std::string text;
+  const auto add = [&](const std::string& s) { text += (text.empty() ? "" : ", ") + s; };
+  if (b.min_pixels > 0) add(fmt::format("at least {:g} px", b.min_pixels));
+  if (b.max_pixels < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} px", b.max_pixels));
+  if (b.min_view > 0) add(fmt::format("at least {:g} a heights", b.min_view));
+  if (b.min_length > 0) add(fmt::format("at least {:g} scene units", b.min_length));
+  if (b.max_length < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} scene units", b.max_length));
+  if (b.gradient) add("gradient");
+  if (b.neighbours) add("neighbours");
+  return text.empty() ? "none" : text;
 }
 
 Camera chosen_camera(const RenderSettings& s, const Scene& scene) {

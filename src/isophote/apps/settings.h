@@ -46,6 +46,9 @@ void apply_setting(RenderSettings& settings, const std::string& table, const std
 /// The method these settings ask for, its combination checked.
 Method chosen_method(const RenderSettings& settings);
 
+/// Bounds on radii in words; "none" where there are none.
+std::string describe(const RadiusBounds& bounds);
+
 /// A camera of the scene by name or index, or `eye;target;fov` in scene units and degrees. Throws UsageError.
 Camera chosen_camera(const RenderSettings& settings, const Scene& scene);
 

@@ -24,6 +24,7 @@ void Statistics::print() const {
                samples);
     fmt::print("  threshold  a = {}, estimator {}, metric {}, secondary {}\n", a, estimator, metric,
                secondary ? "on" : "off");
+    fmt::print("  bounds     {}\n", bounds);
   }
   fmt::print(
       "  CPU        load {:.2f} s, build {:.2f} s, final {:.2f} s, check {:.2f} s; wall {:.2f} s on {} threads\n",
@@ -78,6 +79,7 @@ void Statistics::write_json(const std::string& path) const {
     json["parameters"] = {{"estimator", estimator},
                           {"metric", metric},
                           {"a", a},
+                          {"bounds", bounds},
                           {"gather", {strata.polar, strata.azimuthal}},
                           {"order", lazy ? "lazy" : "rounds"},
                           {"secondary", secondary}};

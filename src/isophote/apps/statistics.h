@@ -10,7 +10,7 @@ namespace isophote::app {
 
 /// What a render took and measured, for people and for scripts.
 struct Statistics {
-  std::string method, estimator, metric;
+  std::string method, estimator, metric, bounds;
   bool lazy = false, secondary = false, cancelled = false;
   std::optional<double> error_asked;
   float a = 0;

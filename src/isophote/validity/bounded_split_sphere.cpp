@@ -30,8 +30,6 @@ void shrink(Record& record, float unscaled, float a) {
   record.footprint.resize(split_sphere_radius(unscaled, a));
 }
 
-/// The record takes its own limit from all its neighbours first, and then limits them: among records that face alike
-/// the outcome is the largest radii that keep the bound, whatever the order.
 /// What one record lets another that faces alike have: no more than its own radius and their distance. Infinite where
 /// it sets no limit under `unscaled`, which is told without a root.
 float limit_by(const Record& neighbour, const Vec3& position, const Vec3& normal, float unscaled) {
@@ -48,7 +46,9 @@ void clamp(Record& record, const Record& neighbour, float a) {
   if (limit < record.footprint.unscaled) shrink(record, limit, a);
 }
 
-/// Each pass over the earlier records, of which there may be many, serves all the fresh ones, of which there are few.
+/// A fresh record takes its own limit from all its neighbours first, and then limits them: among records that face alike
+/// the outcome is the largest radii that keep the bound, whatever the order. Each pass over the earlier records, of
+/// which there may be many, serves all the fresh ones, of which there are few.
 void clamp_to_neighbours(std::span<Record> earlier, std::span<Record> fresh, float a) {
   for (const Record& other : earlier)
     for (Record& record : fresh) clamp(record, other, a);
