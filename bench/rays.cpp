@@ -118,6 +118,7 @@ int run(const char* path, int repeats) {
   const BareScene bare(loaded.scene);
   const Box box = loaded.scene.bounds();
   const Vec3 light = box.center() + Vec3{0, 0.4f * box.size().y, 0};
+  const float offset = 1e-5f * rays.scene_scale();
   RecordCache cache = empty_cache(job);
   build_in_rounds(job, cache);
   const auto film_rays = [&](const RecordCache* from) {
@@ -129,7 +130,7 @@ int run(const char* path, int repeats) {
     HemisphereGather scratch;
     for (std::size_t i = 0; i < cache.records().size(); i += cache.records().size() / 64 + 1) {
       const Record& r = cache.records()[i];
-      gather_hemisphere(job.world, from, {r.position, r.normal, r.normal}, job.strata, i, scratch, counts);
+      gather_hemisphere(job.world, from, {r.position, r.normal, r.normal, 0, offset}, job.strata, i, scratch, counts);
     }
     return counts.total();
   };

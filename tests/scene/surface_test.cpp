@@ -108,6 +108,23 @@ TEST(SurfacePoint, NormalMapFollowsMirroredCoordinates) {
   expect_near(square.from({0, 1, -1}).bsdf.frame.n, {0, -1, 0}, 0.01f);
 }
 
+TEST(SurfacePoint, NormalMapFollowsTheTextureTransform) {
+  Square square(scenes::diffuse(Rgb(0.5f)));
+  TextureUse& use = square.material().normal_texture;
+  use.texture = square.add_texel(255, 128, 128, 255);
+  use.matrix = {-1, 0, 0, 0, 1, 0};  // mirrored: u grows towards -x
+  expect_near(square.from({1, 0, -1}).bsdf.frame.n, {-1, 0, 0}, 0.01f);
+  use.matrix = {0, 1, 0, -1, 0, 0};  // turned: u grows towards +y, v towards -x
+  expect_near(square.from({0, -1, -1}).bsdf.frame.n, {0, 1, 0}, 0.01f);
+  square.scene.textures[0].rgba = {128, 255, 128, 255};
+  expect_near(square.from({-1, 0, -1}).bsdf.frame.n, {1, 0, 0}, 0.01f);
+  // Authored tangents are of the texture as it lies.
+  square.mesh().tangents.assign(4, {0, -1, 0});
+  square.mesh().tangent_signs.assign(4, 1);
+  square.scene.textures[0].rgba = {255, 128, 128, 255};
+  expect_near(square.from({0, 1, -1}).bsdf.frame.n, {0, -1, 0}, 0.01f);
+}
+
 TEST(SurfacePoint, MultipliesFactorsTexturesAndVertexColours) {
   Square square(scenes::diffuse({0.5f, 1, 1}));
   square.material().base_color_texture.texture = square.add_texel(255, 51, 255, 255);
@@ -159,6 +176,10 @@ TEST(SurfacePoint, GlassKnowsItsSideAndAbsorbs) {
   EXPECT_NEAR(std::exp(-2 * front.attenuation.r), 0.5, 1e-6);
   EXPECT_EQ(front.attenuation.g, 0);
   EXPECT_NEAR(std::exp(-2 * front.attenuation.b), 0.25, 1e-6);
+  EXPECT_TRUE(is_black(front.medium));
+  EXPECT_EQ(back.medium, back.attenuation);
+  square.material().transmission = 0;  // nothing gets inside
+  EXPECT_TRUE(is_black(square.from({0, 0, -1}).attenuation));
 }
 
 TEST(SurfacePoint, EmitsToTheFrontOnlyUnlessDoubleSided) {
@@ -185,17 +206,25 @@ TEST(Opacity, FollowsTheAlphaMode) {
 }
 
 TEST(OffsetOrigin, IsOnTheSideOfTheDirectionAndScales) {
-  const Square square(scenes::diffuse(Rgb(1.0f)));
-  SurfacePoint point = square.from({0, 0, -1});
-  const Vec3 up = offset_origin(point, {0, 0.6f, 0.8f}, 3), down = offset_origin(point, {0, 0.6f, -0.8f}, 3);
+  Square square(scenes::diffuse(Rgb(1.0f)));
+  const SurfacePoint point = square.from({0, 0, -1});
+  const Vec3 up = offset_origin(point, {0, 0.6f, 0.8f}), down = offset_origin(point, {0, 0.6f, -0.8f});
   EXPECT_GT(up.z, 0);
-  EXPECT_LT(up.z, 1e-4f);
+  EXPECT_LT(up.z, 4e-6f);
   EXPECT_EQ(down.z, -up.z);
-  point.position *= 1024;
-  EXPECT_EQ(offset_origin(point, {0, 0.6f, 0.8f}, 3 * 1024), up * 1024);
-  // Far from the origin, the offset is still more than rounding.
-  point.position = {0, 0, 1e6f};
-  EXPECT_GT(offset_origin(point, {0, 0, 1}, 3).z, 1e6f);
+  for (Vec3& p : square.mesh().positions) p *= 1024;
+  EXPECT_EQ(offset_origin(square.from({0, 0, -1}), {0, 0.6f, 0.8f}), up * 1024);
+  // Far from the world's origin, the offset is still more than rounding.
+  for (Vec3& p : square.mesh().positions) p.z = 1e6f;
+  EXPECT_GT(offset_origin(square.from({0, 0, -1}), {0, 0, 1}).z, 1e6f);
+}
+
+TEST(OffsetOrigin, IsSmallBesideTheOriginOnALargeFloor) {
+  // No coordinate along its normal is rounded, however far it reaches.
+  Square square(scenes::diffuse(Rgb(1.0f)));
+  square.mesh().positions = {{-1e4f, -1e4f, 0}, {1e4f, -1e4f, 0}, {1e4f, 1e4f, 0}, {-1e4f, 1e4f, 0}};
+  square.hit.u = 0, square.hit.v = 0.5f;
+  EXPECT_LT(offset_origin(square.from({0, 0, -1}), {0, 0, 1}).z, 1e-3f);
 }
 
 }  // namespace

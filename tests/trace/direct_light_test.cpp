@@ -107,20 +107,19 @@ TEST(DirectLight, LampsShineToTheFrontUnlessDoubleSided) {
 /// What `scatter` calls direct, by light sampling alone and by BSDF sampling alone, from public pieces.
 struct SingleStrategies {
   Estimate light, bsdf;
+  statistics::Random random{17};
 
   SingleStrategies(Stage& stage, const SurfacePoint& point, const Vec3& wo, int samples) {
-    statistics::Random random(17);
     const Bsdf& b = point.bsdf;
-    const float scale = stage.rays.scene_scale();
     const auto lit_side = [&](const Vec3& wi) { return dot(wi, b.frame.n) > 0 && dot(wi, point.geometric_normal) > 0; };
     for (int i = 0; i < samples; ++i) {
       const float choice = random.next();
       const LightSample s = stage.emitters.sample(point.position, choice, random.next2());
       double value = 0;
       if (s.pdf > 0 && s.sampled_directly && lit_side(s.direction)) {
-        const Ray ray{offset_origin(point, s.direction, scale), s.direction, 0, s.distance * 0.999f};
+        const Ray ray{offset_origin(point, s.direction), s.direction, 0, s.distance * (1 - 1e-4f)};
         const Rgb f = diffuse_albedo(b, wo) * (dot(s.direction, b.frame.n) / pi) + evaluate_glossy(b, wo, s.direction);
-        if (!stage.rays.occluded(ray, 0)) value = f.g * s.radiance.g / s.pdf;
+        if (!stage.rays.occluded(ray, seed())) value = f.g * s.radiance.g / s.pdf;
       }
       light.add(value);
 
@@ -132,39 +131,74 @@ struct SingleStrategies {
   }
 
  private:
-  static double lamp_along(Stage& stage, const SurfacePoint& point, const Vec3& d) {
+  std::uint32_t seed() { return static_cast<std::uint32_t>(random.next() * 0x1p24f); }
+  double lamp_along(Stage& stage, const SurfacePoint& point, const Vec3& d) {
     if (!(dot(d, point.geometric_normal) > 0)) return 0;
-    const Ray ray{offset_origin(point, d, stage.rays.scene_scale()), d};
+    const Ray ray{offset_origin(point, d), d};
     Hit hit;
-    if (stage.rays.intersect(ray, 0, hit)) return surface_point(stage.scene, ray, hit).emission.g;
+    if (stage.rays.intersect(ray, seed(), hit)) return surface_point(stage.scene, ray, hit).emission.g;
     const Emitters::Sky sky = stage.emitters.environment(d);
     return sky.sampled_directly ? sky.radiance.g : 0;
   }
 };
 
-TEST(DirectLight, MisEqualsEachSingleStrategy) {
+/// A shiny floor under a lamp and a sky with peaks.
+Scene shiny_floor_with_lamp(float roughness) {
   Material shiny = scenes::diffuse({0.3f, 0.5f, 0.7f});
   shiny.specular = 1;
   shiny.ior = 2.5f;
-  for (const float roughness : {0.3f, 0.8f}) {
-    shiny.roughness = roughness;
-    Scene scene = floor_with_lamp(shiny, 0.8f);
-    scene.environment.radiance = RgbImage(32, 16, Rgb(0.01f));
-    for (int x = 8; x < 12; ++x) scene.environment.radiance.at(x, 5) = Rgb(6.0f);  // peaks
-    Stage stage(scene);
-    const Vec3 wo = normalize(Vec3{0.8f, 0.6f, 0.1f});
-    const SurfacePoint point = stage.hit(Vec3{0.3f, 0, 0} + wo * 0.5f, -wo);
-    const SingleStrategies single(stage, point, wo, 300000);
-    Estimate mis, parts;
-    for (int i = 0; i < 100000; ++i) {
-      Sampler a = test_sampler(1, i), b = test_sampler(2, i);
-      mis.add(scatter(stage.world, point, wo, 0, a, stage.counts).direct.g);
-      const double d = direct_diffuse(stage.world, point, wo, b, stage.counts).g;
-      parts.add(d + glossy_ray(stage.world, point, wo, b, stage.counts).direct.g);
-    }
-    expect_same_mean(mis, single.light, 0.01);
-    expect_same_mean(mis, single.bsdf, 0.02);
-    expect_same_mean(mis, parts, 0.01);
+  shiny.roughness = roughness;
+  Scene scene = floor_with_lamp(shiny, 0.8f);
+  scene.environment.radiance = RgbImage(32, 16, Rgb(0.01f));
+  for (int x = 8; x < 12; ++x) scene.environment.radiance.at(x, 5) = Rgb(6.0f);
+  return scene;
+}
+
+void expect_equal_strategies(Scene scene) {
+  Stage stage(std::move(scene));
+  const Vec3 wo = normalize(Vec3{0.8f, 0.6f, 0.1f});
+  const SurfacePoint point = stage.hit(Vec3{0.3f, 0, 0} + wo * 0.5f, -wo);
+  const SingleStrategies single(stage, point, wo, 300000);
+  Estimate mis, parts;
+  for (int i = 0; i < 100000; ++i) {
+    Sampler a = test_sampler(1, i), b = test_sampler(2, i);
+    mis.add(scatter(stage.world, point, wo, 0, a, stage.counts).direct.g);
+    const double d = direct_diffuse(stage.world, point, wo, b, stage.counts).g;
+    parts.add(d + glossy_ray(stage.world, point, wo, b, stage.counts).direct.g);
+  }
+  expect_same_mean(mis, single.light, 0.01);
+  expect_same_mean(mis, single.bsdf, 0.02);
+  expect_same_mean(mis, parts, 0.01);
+}
+
+TEST(DirectLight, MisEqualsEachSingleStrategy) {
+  for (const float roughness : {0.3f, 0.8f}) expect_equal_strategies(shiny_floor_with_lamp(roughness));
+}
+
+/// 4 x 2 texels: a bright and a dark half in alternating rows, with a hole.
+Texture lamp_texture() {
+  Texture texture;
+  texture.width = 4, texture.height = 2;
+  for (const int value : {255, 20, 20, 200, 40, 255, 128, 0})
+    for (int channel = 0; channel < 4; ++channel) texture.rgba.push_back(static_cast<std::uint8_t>(value));
+  return texture;
+}
+
+TEST(DirectLight, MisEqualsEachSingleStrategyForATexturedLamp) {
+  Scene scene = shiny_floor_with_lamp(0.5f);
+  scene.textures.push_back(lamp_texture());
+  scene.materials[1].emission_texture.texture = 0;
+  scene.materials[1].emission_texture.matrix = {1.5f, 0.5f, 0.1f, -0.5f, 1, 0};
+  expect_equal_strategies(scene);
+}
+
+TEST(DirectLight, MisEqualsEachSingleStrategyForALampWithHoles) {
+  for (const Alpha alpha : {Alpha::mask, Alpha::blend}) {
+    Scene scene = shiny_floor_with_lamp(0.5f);
+    scene.textures.push_back(lamp_texture());
+    scene.materials[1].base_color_texture.texture = 0;
+    scene.materials[1].alpha = alpha;
+    expect_equal_strategies(scene);
   }
 }
 

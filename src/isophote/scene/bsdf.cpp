@@ -39,11 +39,15 @@ Rgb glass_reflectance(const Bsdf& bsdf, float cos_i) {
   if (cos_t < 0) return Rgb(1.0f);
   const float normal = (bsdf.eta - 1) / (bsdf.eta + 1), at_normal = normal * normal;
   const float grazing = (dielectric_reflectance(cos_i, cos_t, bsdf.eta) - at_normal) / (1 - at_normal);
-  return bsdf.f0 * (1 - grazing) + Rgb(bsdf.f90 * grazing);
+  // Of indices above 3.7 the curve falls before it rises: a tinted one would fall below 0.
+  return max(bsdf.f0 * (1 - grazing) + Rgb(bsdf.f90 * grazing), Rgb(0.0f));
 }
 
 bool has_reflection(const Bsdf& bsdf) { return max_component(bsdf.f0) > 0 || bsdf.f90 > 0; }
 bool is_glass(const Bsdf& bsdf) { return max_component(bsdf.transmission) > 0; }
+
+/// The share that is let through where `albedo` is reflected.
+Rgb transmitted(const Bsdf& bsdf, const Rgb& albedo) { return bsdf.transmission * (1 - max_component(albedo)); }
 
 }  // namespace
 
@@ -97,17 +101,22 @@ LobeChances lobe_chances(const Bsdf& bsdf, const Vec3& wo) {
   return {chances.diffuse / sum, chances.glossy / sum, chances.specular / sum};
 }
 
+Rgb sheet_transmittance(const Bsdf& bsdf, const Vec3& wo) {
+  if (bsdf.solid || !is_glass(bsdf)) return Rgb(0.0f);
+  return transmitted(bsdf, specular_albedo(bsdf, std::min(1.0f, dot(wo, bsdf.frame.n))));
+}
+
 BsdfSample sample_specular(const Bsdf& bsdf, const Vec3& wo, float u) {
   const Vec3& n = bsdf.frame.n;
   const float cos_o = std::min(1.0f, dot(wo, n));
   const Rgb albedo = specular_albedo(bsdf, cos_o);
   const Rgb reflected = bsdf.is_mirror() ? albedo : Rgb(0.0f);  // otherwise the glossy lobe's
-  const Rgb transmitted = bsdf.transmission * (1 - max_component(albedo));
-  const float sum = mean(reflected) + mean(transmitted);
+  const Rgb passed = transmitted(bsdf, albedo);
+  const float sum = mean(reflected) + mean(passed);
   if (!(sum > 0)) return {};
   const float chance = mean(reflected) / sum;
   if (u < chance) return {n * (2 * cos_o) - wo, reflected / chance, 0, false};
-  const Rgb weight = transmitted / (1 - chance);
+  const Rgb weight = passed / (1 - chance);
   if (!bsdf.solid) return {-wo, weight, 0, true};
   const float cos_t = refracted_cosine(cos_o, bsdf.eta);
   if (cos_t < 0) return {};

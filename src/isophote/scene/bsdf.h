@@ -61,4 +61,8 @@ LobeChances lobe_chances(const Bsdf& bsdf, const Vec3& wo);
 /// radiance by 1/eta^2, which leaving it undoes.
 BsdfSample sample_specular(const Bsdf& bsdf, const Vec3& wo, float u);
 
+/// The share of light that passes a thin sheet straight through, from `wo` or towards it: what the sampled transmission
+/// is on average. Black for all else.
+Rgb sheet_transmittance(const Bsdf& bsdf, const Vec3& wo);
+
 }  // namespace isophote

@@ -47,8 +47,15 @@ struct Tangents {
   Vec3 along, across;  // unit, towards growing u and (as glTF has it) shrinking v of the texture; zero: none
 };
 
-/// `normal` is the interpolated one as authored; the tangents are made orthogonal to it.
-Tangents tangents(const Corners& at, const Vec3& normal, int uv_set) {
+/// A difference of texture coordinates as the texture's transform has it.
+Vec2 turned(const TextureUse& use, const Vec2& d) {
+  const auto& m = use.matrix;
+  return {m[0] * d.x + m[1] * d.y, m[3] * d.x + m[4] * d.y};
+}
+
+/// `normal` is the interpolated one as authored; the tangents are made orthogonal to it. Authored ones are taken as
+/// they are, derived ones follow the texture's transform.
+Tangents tangents(const Corners& at, const Vec3& normal, const TextureUse& use) {
   const Mesh& mesh = at.mesh();
   Vec3 tangent;
   float sign = 1;
@@ -56,10 +63,10 @@ Tangents tangents(const Corners& at, const Vec3& normal, int uv_set) {
     tangent = at.interpolate(mesh.tangents);
     sign = at.corner(mesh.tangent_signs, 0);
   } else {
-    const auto& uv = mesh.uv[uv_set];
+    const auto& uv = mesh.uv[use.uv_set];
     const Vec3 p = at.corner(mesh.positions, 0), e1 = at.corner(mesh.positions, 1) - p,
                e2 = at.corner(mesh.positions, 2) - p;
-    const Vec2 t = at.corner(uv, 0), d1 = at.corner(uv, 1) - t, d2 = at.corner(uv, 2) - t;
+    const Vec2 t = at.corner(uv, 0), d1 = turned(use, at.corner(uv, 1) - t), d2 = turned(use, at.corner(uv, 2) - t);
     const float turn = d1.x * d2.y - d2.x * d1.y > 0 ? 1.0f : -1.0f;
     tangent = (e1 * d2.y - e2 * d1.y) * turn;
     const Vec3 down = (e2 * d1.x - e1 * d2.x) * turn;
@@ -75,7 +82,7 @@ Tangents tangents(const Corners& at, const Vec3& normal, int uv_set) {
 Vec3 mapped_normal(const Corners& at, const Vec3& normal) {
   const TextureUse& use = at.material().normal_texture;
   if (use.texture < 0 || at.mesh().uv[use.uv_set].empty()) return normal;
-  const Tangents frame = tangents(at, normal, use.uv_set);
+  const Tangents frame = tangents(at, normal, use);
   const Rgb texel = at.texture(use).color;
   const float scale = at.material().normal_scale;
   const Vec3 mapped = frame.along * ((2 * texel.r - 1) * scale) + frame.across * ((2 * texel.g - 1) * scale) +
@@ -93,7 +100,8 @@ Vec3 facing(const Vec3& normal, const Vec3& wo) {
 }
 
 Rgb absorption(const Material& material) {
-  if (!material.solid || material.attenuation_distance == infinity) return Rgb(0.0f);
+  const bool filled = material.solid && material.transmission > 0;
+  if (!filled || material.attenuation_distance == infinity) return Rgb(0.0f);
   constexpr float least = 1e-6f;  // of a channel: black would absorb infinitely
   const auto channel = [&](float c) { return -std::log(std::clamp(c, least, 1.0f)) / material.attenuation_distance; };
   const Rgb& c = material.attenuation_color;
@@ -145,7 +153,8 @@ Bsdf lobes(const Corners& at, bool front) {
   // Only smooth glass is known: where light passes, reflection is smooth too.
   bsdf.alpha = max_component(bsdf.transmission) > 0 ? 0 : roughness * roughness;
   bsdf.solid = material.solid;
-  bsdf.eta = material.solid && !front ? 1 / material.ior : material.ior;
+  const float ior = material.ior > 0 ? material.ior : 1;  // reflecting alike at all angles, as f0 does by itself
+  bsdf.eta = material.solid && !front ? 1 / ior : ior;
   return bsdf;
 }
 
@@ -167,6 +176,7 @@ SurfacePoint surface_point(const Scene& scene, const Ray& ray, const Hit& hit) {
   const Vec3 winding = size > 0 ? across / size : wo;
   const Vec2 at_uv = off_edges(hit, p0, e1, e2, winding, size, wo);
   point.position = p0 + e1 * at_uv.x + e2 * at_uv.y;
+  point.offset = ray_offset(point.position, p0, e1, e2);
   point.front = dot(winding, wo) >= 0;
   point.geometric_normal = point.front ? winding : -winding;
 
@@ -183,6 +193,7 @@ SurfacePoint surface_point(const Scene& scene, const Ray& ray, const Hit& hit) {
   point.bsdf.frame = Frame(facing(mapped_normal(at, authored) * side, wo));
   if (point.front || material.double_sided) point.emission = emission(scene, hit);
   point.attenuation = absorption(material);
+  if (!point.front) point.medium = point.attenuation;
   return point;
 }
 
@@ -200,12 +211,20 @@ Rgb emission(const Scene& scene, const Hit& hit) {
   return is_black(material.emission) ? Rgb(0.0f) : material.emission * at.texture(material.emission_texture).color;
 }
 
-Vec3 offset_origin(const SurfacePoint& point, const Vec3& direction, float scene_scale) {
-  // Positions and hits are off by up to 4 units in the last place (2^-24) of the largest coordinate about.
-  const Vec3& p = point.position;
-  const float magnitude = std::max({scene_scale, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  const float distance = 0x1p-20f * magnitude;
-  return p + point.geometric_normal * (dot(direction, point.geometric_normal) >= 0 ? distance : -distance);
+float ray_offset(const Vec3& position, const Vec3& p, const Vec3& e1, const Vec3& e2, float ray_length) {
+  const auto sizes = [](const Vec3& v) { return Vec3{std::abs(v.x), std::abs(v.y), std::abs(v.z)}; };
+  const Vec3 across = cross(e1, e2), a = sizes(e1), b = sizes(e2);
+  const float size = length(across);
+  // Each coordinate is rounded, and so are the products that make the normal, which tilts a narrow triangle.
+  const Vec3 products{a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
+  const float along = dot(sizes(across), sizes(p) + a + b) + 0.25f * dot(a + b, products);
+  const float least = max_component(max(a, b)) / 64;  // the rest can be 0 where coordinates are
+  return 0x1p-20f * std::max({max_component(sizes(position)), ray_length, least, size > 0 ? along / size : 0.0f});
+}
+
+Vec3 offset_origin(const SurfacePoint& point, const Vec3& direction) {
+  const float side = dot(direction, point.geometric_normal) >= 0 ? point.offset : -point.offset;
+  return point.position + point.geometric_normal * side;
 }
 
 }  // namespace isophote

@@ -23,7 +23,9 @@ struct SurfacePoint {
   Bsdf bsdf;            ///< bsdf.frame.n is the mapped normal
   Rgb emission;         ///< radiance towards the ray's origin (0 on a side that does not emit)
   Rgb attenuation;      ///< sigma_a (1/m) of the medium behind the surface, for solid glass
+  Rgb medium;           ///< that on the ray's side: of this solid, met from within, or of one that the path knows of
   std::uint32_t mesh = 0, triangle = 0;
+  float offset = 0;   ///< length by which rays keep off the surface: `ray_offset` here
   bool front = true;  ///< met on the side its winding faces
 };
 
@@ -35,8 +37,13 @@ float opacity(const Scene& scene, const Hit& hit);
 /// Radiance that the material emits at a hit, whichever side it is seen from.
 Rgb emission(const Scene& scene, const Hit& hit);
 
-/// Where a ray that leaves `point` towards `direction` starts, off the surface on that side by a distance that scales
-/// with the scene, so that pictures do not depend on its units.
-Vec3 offset_origin(const SurfacePoint& point, const Vec3& direction, float scene_scale);
+/// The length by which rays keep off the triangle (p, p + e1, p + e2) at `position`, so as not to meet the triangle
+/// itself: more than rounding moves either along the normal, a few units in the last place (2^-24) of the coordinates
+/// there. It knows nothing of the rest of the scene, and scales with units of length. `ray_length` counts for rays
+/// that end there.
+float ray_offset(const Vec3& position, const Vec3& p, const Vec3& e1, const Vec3& e2, float ray_length = 0);
+
+/// Where a ray that leaves `point` towards `direction` starts: off the surface on that side, by point.offset.
+Vec3 offset_origin(const SurfacePoint& point, const Vec3& direction);
 
 }  // namespace isophote

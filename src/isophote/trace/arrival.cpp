@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
+#include "isophote/trace/shadow.h"
+
 namespace isophote {
 namespace {
-
-/// Absorption along a segment that ended at `point`, `inside` being that of the medium the path last refracted into. A
-/// ray that began inside is known by meeting a solid's back.
-Rgb transmittance(const SurfacePoint& point, const Rgb& inside, float distance) {
-  const Rgb& sigma = point.front || is_black(point.attenuation) ? inside : point.attenuation;
-  return is_black(sigma) ? Rgb(1.0f) : exp(sigma * -distance);
-}
 
 /// Ends long specular chains without bias. False: the path ends here.
 bool survives(Rgb& throughput, int events, Sampler& sampler) {
@@ -24,11 +19,14 @@ bool survives(Rgb& throughput, int events, Sampler& sampler) {
 
 }  // namespace
 
-Arrival follow(const World& world, const Ray& start, int depth, Sampler& sampler, std::uint64_t& kind) {
+const Rgb& medium_before(const SurfacePoint& point, const Rgb& inside) {
+  return is_black(point.medium) ? inside : point.medium;
+}
+
+Arrival follow(const World& world, const Ray& start, Rgb inside, int depth, Sampler& sampler, std::uint64_t& kind) {
   Arrival arrival;
   FirstPoint& first = arrival.first;
   Ray ray = start;
-  Rgb inside;
   for (;;) {
     ++kind;
     first.direction = ray.direction;
@@ -41,9 +39,10 @@ Arrival follow(const World& world, const Ray& start, int depth, Sampler& sampler
       first.path_length = infinity;
       return arrival;
     }
-    const SurfacePoint point = surface_point(world.scene, ray, hit);
+    SurfacePoint point = surface_point(world.scene, ray, hit);
+    point.medium = medium_before(point, inside);
     first.path_length += hit.distance;
-    first.throughput *= transmittance(point, inside, hit.distance);
+    first.throughput *= transmittance(point.medium, hit.distance);
     if (straight) {
       arrival.hit = hit;
       first.first_distance = hit.distance;
@@ -68,12 +67,13 @@ Arrival follow(const World& world, const Ray& start, int depth, Sampler& sampler
     if (next.transmitted && point.bsdf.solid) inside = point.front ? point.attenuation : Rgb{};
     ++first.depth;
     if (!survives(first.throughput, first.depth, sampler)) return arrival;
-    ray = {offset_origin(point, next.direction, world.rays.scene_scale()), next.direction};
+    ray = {offset_origin(point, next.direction), next.direction};
   }
 }
 
-FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind) {
-  Arrival arrival = follow(world, ray, 0, sampler, kind);
+FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind,
+                       const Rgb& inside) {
+  Arrival arrival = follow(world, ray, inside, 0, sampler, kind);
   arrival.first.emission += arrival.sky;
   if (see_lamps) arrival.first.emission += arrival.lamp;
   return arrival.first;

@@ -12,8 +12,12 @@ struct Arrival {
   Hit hit;           ///< of the first segment; distance infinity: none
 };
 
-/// Follows a ray, before which `depth` events happened, through specular surfaces. Chains have no length limit but
-/// world.max_depth; Russian roulette ends each one.
-Arrival follow(const World& world, const Ray& ray, int depth, Sampler& sampler, std::uint64_t& kind);
+/// sigma_a (1/m) along a segment that ended at `point` and began in a medium of `inside`, as far as that was known: who
+/// meets a solid's back came through that solid.
+const Rgb& medium_before(const SurfacePoint& point, const Rgb& inside);
+
+/// Follows a ray, before which `depth` events happened, through specular surfaces. It starts in a medium of absorption
+/// `inside` (1/m). Chains have no length limit but world.max_depth; Russian roulette ends each one.
+Arrival follow(const World& world, const Ray& ray, Rgb inside, int depth, Sampler& sampler, std::uint64_t& kind);
 
 }  // namespace isophote

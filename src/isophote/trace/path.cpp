@@ -4,6 +4,7 @@
 
 #include "isophote/sampling/warp.h"
 #include "isophote/trace/arrival.h"
+#include "isophote/trace/shadow.h"
 
 namespace isophote {
 namespace {
@@ -35,22 +36,7 @@ bool scatters_from(const SurfacePoint& point, const Vec3& wi) {
   return dot(wi, point.bsdf.frame.n) > 0 && dot(wi, point.geometric_normal) > 0;
 }
 
-bool visible(const World& world, const SurfacePoint& point, const LightSample& light, std::uint32_t seed,
-             RayCounts& counts) {
-  ++counts.shadow;
-  Ray ray{offset_origin(point, light.direction, world.rays.scene_scale()), light.direction};
-  if (light.distance < infinity) {
-    // Aimed anew from the offset origin, and ended short of the emitter, which would else hide itself.
-    const Vec3 to = point.position + light.direction * light.distance - ray.origin;
-    const float distance = length(to);
-    if (!(distance > 0)) return true;
-    ray.direction = to / distance;
-    ray.far = distance * (1 - 0x1p-12f);
-  }
-  return !world.rays.occluded(ray, seed);
-}
-
-/// One light sample at a point: what it sends there if nothing hides it, over its density.
+/// One light sample at a point: what it sends there, over its density.
 struct Incident {
   Vec3 direction;
   Rgb radiance;
@@ -58,7 +44,8 @@ struct Incident {
   bool sampled_directly = true;
 };
 
-/// No direction where nothing arrives. `scattered` of the incident light decides whether a shadow ray is worth it.
+/// False where nothing arrives. `scattered` of the incident light, nothing in its way, decides whether a shadow ray is
+/// worth it.
 template <class Scatter>
 bool sample_light(const World& world, const SurfacePoint& point, float u_choice, Vec2 u, std::uint32_t seed,
                   Emitters::Among among, RayCounts& counts, Incident& incident, const Scatter& scattered) {
@@ -66,7 +53,9 @@ bool sample_light(const World& world, const SurfacePoint& point, float u_choice,
   const LightSample light = world.emitters.sample(point.position, u_choice, u, among);
   if (!(light.pdf > 0) || is_black(light.radiance) || !scatters_from(point, light.direction)) return false;
   incident = {light.direction, light.radiance / light.pdf, light.delta ? 0.0f : light.pdf, light.sampled_directly};
-  return scattered(incident) && visible(world, point, light, seed, counts);
+  if (!scattered(incident)) return false;
+  incident.radiance *= light_transmittance(world, point, light, seed, counts);
+  return !is_black(incident.radiance);
 }
 
 /// The density with which light sampling would have taken the direction of a ray that brought `arrival`.
@@ -133,8 +122,8 @@ Event scatter_once(const World& world, const SurfacePoint& point, const Vec3& wo
   const BsdfSample sample =
       diffuse ? sample_diffuse(point.bsdf, lobes.diffuse_albedo, u_ray) : sample_glossy(point.bsdf, wo, u_ray);
   if (!usable(point, sample)) return event;
-  const Ray ray{offset_origin(point, sample.direction, world.rays.scene_scale()), sample.direction};
-  event.next = follow(world, ray, depth + 1, sampler, counts.path);
+  const Ray ray{offset_origin(point, sample.direction), sample.direction};
+  event.next = follow(world, ray, point.medium, depth + 1, sampler, counts.path);
   event.weight = sample.weight / chance;
   event.irradiance_weight = diffuse ? pi / chance : 0.0f;
   const Arrival& next = event.next;
@@ -205,13 +194,15 @@ Rgb direct_diffuse(const World& world, const SurfacePoint& point, const Vec3& wo
   }
   const BsdfSample sample = sample_diffuse(point.bsdf, albedo, u_ray);
   if (shared && usable(point, sample)) {
-    const Ray ray{offset_origin(point, sample.direction, world.rays.scene_scale()), sample.direction};
+    const Ray ray{offset_origin(point, sample.direction), sample.direction};
     Arrival arrival;
     ++counts.path;
-    if (world.rays.intersect(ray, seed, arrival.hit))
-      arrival.lamp = surface_point(world.scene, ray, arrival.hit).emission;
-    else if (const Emitters::Sky sky = world.emitters.environment(sample.direction); sky.sampled_directly)
+    if (world.rays.intersect(ray, seed, arrival.hit)) {
+      const SurfacePoint end = surface_point(world.scene, ray, arrival.hit);
+      arrival.lamp = end.emission * transmittance(medium_before(end, point.medium), arrival.hit.distance);
+    } else if (const Emitters::Sky sky = world.emitters.environment(sample.direction); sky.sampled_directly) {
       arrival.lamp = sky.radiance;
+    }
     if (!is_black(arrival.lamp))
       irradiance +=
           arrival.lamp * (pi * mis_weight(sample.pdf, light_pdf(world, point, sample.direction, arrival, among)));
@@ -239,8 +230,8 @@ GlossyRay glossy_ray(const World& world, const SurfacePoint& point, const Vec3& 
 
   const BsdfSample sample = sample_glossy(point.bsdf, wo, u_ray);
   if (!usable(point, sample)) return out;
-  const Ray ray{offset_origin(point, sample.direction, world.rays.scene_scale()), sample.direction};
-  Arrival arrival = follow(world, ray, 1, sampler, counts.path);
+  const Ray ray{offset_origin(point, sample.direction), sample.direction};
+  Arrival arrival = follow(world, ray, point.medium, 1, sampler, counts.path);
   out.weight = sample.weight;
   if (!is_black(arrival.lamp))
     out.direct += sample.weight * arrival.lamp *

@@ -42,8 +42,9 @@ struct FirstPoint {
 /// chance, which `throughput` makes up for: what scatters at the point is its diffuse and glossy lobes. `emission`
 /// counts directly sampled emitters (lamps, the environment's peaks) met before any specular event only where
 /// `see_lamps`; whatever is met after one counts always (no light sample could have found it). `kind` is the counter to
-/// charge.
-FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind);
+/// charge; `inside` the absorption (1/m) of the medium that the ray starts in.
+FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind,
+                       const Rgb& inside = {});
 
 /// Light scattered at a point towards `wo`, split as the project defines it: `direct` from directly sampled emitters
 /// scattered once here, `indirect` everything else. `irradiance` is the indirect irradiance on the diffuse lobe's

@@ -55,6 +55,7 @@ struct RayCaster::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   float scale = 1;
+  bool sheets = false;
 
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
@@ -104,6 +105,7 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   impl_->check();
   const Box bounds = scene.bounds();
   if (!bounds.empty()) impl_->scale = bounds.diagonal();
+  for (const Material& material : scene.materials) impl_->sheets |= material.transmission > 0 && !material.solid;
 }
 
 RayCaster::~RayCaster() = default;
@@ -129,6 +131,7 @@ bool RayCaster::occluded(const Ray& ray, std::uint32_t seed) const {
 }
 
 float RayCaster::scene_scale() const { return impl_->scale; }
+bool RayCaster::has_sheets() const { return impl_->sheets; }
 
 namespace {
 constexpr unsigned flush_and_daz = 0x8040;  // results and operands, of the SSE control register

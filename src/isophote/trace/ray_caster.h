@@ -23,8 +23,10 @@ class RayCaster {
   bool intersect(const Ray& ray, std::uint32_t seed, Hit& hit) const;
   bool occluded(const Ray& ray, std::uint32_t seed) const;
 
-  /// The length on which ray offsets are measured: the diagonal of the scene's bounds.
+  /// The diagonal of the scene's bounds.
   float scene_scale() const;
+  /// Do any materials let light straight through, thin and transmissive?
+  bool has_sheets() const;
 
  private:
   struct Impl;

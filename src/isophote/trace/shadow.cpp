@@ -1,0 +1,52 @@
+#include "isophote/trace/shadow.h"
+
+namespace isophote {
+namespace {
+
+Ray shadow_ray(const SurfacePoint& from, const LightSample& light) {
+  Ray ray{offset_origin(from, light.direction), light.direction};
+  if (light.distance == infinity) return ray;
+  // Aimed anew, from off the surface to off the emitter, which would else hide itself.
+  const Vec3 to = light.end - ray.origin;
+  ray.far = 0;  // where the two offsets meet, nothing is between
+  if (!(dot(to, light.direction) > 0)) return ray;
+  ray.far = length(to);
+  ray.direction = to / ray.far;
+  return ray;
+}
+
+Rgb through_sheets(const World& world, const SurfacePoint& point, const LightSample& light, std::uint32_t seed,
+                   RayCounts& counts) {
+  constexpr int most_sheets = 32;
+  Rgb passed(1.0f);
+  SurfacePoint from = point;
+  for (int sheets = 0; sheets <= most_sheets; ++sheets) {
+    const Ray ray = shadow_ray(from, light);
+    Hit hit;
+    ++counts.shadow;
+    if (!world.rays.intersect(ray, seed, hit)) return passed;
+    from = surface_point(world.scene, ray, hit);
+    passed *= sheet_transmittance(from.bsdf, -ray.direction);
+    if (is_black(passed)) break;
+  }
+  return {};
+}
+
+}  // namespace
+
+Rgb transmittance(const Rgb& sigma, float distance) { return is_black(sigma) ? Rgb(1.0f) : exp(sigma * -distance); }
+
+Rgb light_transmittance(const World& world, const SurfacePoint& point, const LightSample& light, std::uint32_t seed,
+                        RayCounts& counts) {
+  Rgb passed(1.0f);
+  if (light.delta && world.rays.has_sheets()) {
+    passed = through_sheets(world, point, light, seed, counts);
+  } else {
+    ++counts.shadow;
+    if (world.rays.occluded(shadow_ray(point, light), seed)) return {};
+  }
+  // A closed solid hides what is infinitely far.
+  return light.distance < infinity ? passed * transmittance(point.medium, light.distance) : passed;
+}
+
+}  // namespace isophote
