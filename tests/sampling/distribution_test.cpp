@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -43,6 +44,8 @@ TEST(AliasTable, DependsOnRatiosOnly) {
   }
 }
 
+TEST(AliasTableDeathTest, EmptyOneIsNotSampled) { EXPECT_DEATH(AliasTable().sample(0.5f), "broken invariant"); }
+
 TEST(AliasTable, IsEmptyWithoutWeight) {
   EXPECT_TRUE(AliasTable().empty());
   EXPECT_TRUE(AliasTable(std::vector<double>{}).empty());
@@ -83,6 +86,47 @@ TEST(Distribution2D, IsMonotoneAndStaysInside) {
   const Vec2 corner = distribution.sample({0x1.fffffep-1f, 0x1.fffffep-1f});
   EXPECT_LT(corner.x, 1);
   EXPECT_LT(corner.y, 1);
+}
+
+TEST(Distribution2D, PointsLieInTheirCells) {
+  // Every other column is black: a point that rounds into the next cell has no density. 25 columns round often.
+  std::vector<float> weights(25 * 3, 0.0f);
+  for (std::size_t i = 0; i < weights.size(); i += 2) weights[i] = 1 + static_cast<float>(i % 7);
+  const Distribution2D distribution(weights, 25, 3);
+  int outside = 0;
+  for (std::uint32_t k = 0; k < grid; k += 61) {
+    const float u = static_cast<float>(k) * 0x1p-24f;
+    for (const float v : {0.0f, 0.4f, 0x1.fffffep-1f}) outside += !(distribution.pdf(distribution.sample({u, v})) > 0);
+  }
+  EXPECT_EQ(outside, 0);
+}
+
+TEST(Distribution2D, ProbabilityIsExactlyWhatSampleDoes) {
+  // Weights far below a step of the random numbers, of about one, and of many.
+  std::vector<float> weights{1, 1e-9f, 3e-8f, 2e-7f, 0.5f, 0, 4e-8f, 1e-3f};
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const Distribution2D distribution(weights, 8, 1);
+  std::vector<std::uint32_t> seen(weights.size());
+  float lowest = 1;
+  for (std::uint32_t k = 0; k < grid; ++k) {
+    const Vec2 p = distribution.sample({static_cast<float>(k) * 0x1p-24f, 0.5f});
+    const auto cell = static_cast<int>(p.x * 8);
+    ++seen[cell];
+    if (cell == 2) lowest = std::min(lowest, p.x * 8 - 2);
+  }
+  for (int x = 0; x < 8; ++x) {
+    EXPECT_EQ(distribution.probability(x, 0), static_cast<float>(seen[x]) / grid) << x;
+    EXPECT_NEAR(distribution.probability(x, 0), weights[x] / sum, 1.0 / grid);
+  }
+  EXPECT_EQ(seen[1], 0u);
+  EXPECT_GT(lowest, 0.1f);  // one or few steps wide: sampled at their middles, not at its edge
+}
+
+TEST(Distribution2DDeathTest, RefusesWhatIsNotAWeightAndEmptyOnesAreNotSampled) {
+  const std::vector<float> infinite{1, INFINITY}, nothing{1, NAN};
+  EXPECT_DEATH(Distribution2D(infinite, 2, 1), "broken invariant");
+  EXPECT_DEATH(Distribution2D(nothing, 2, 1), "broken invariant");
+  EXPECT_DEATH(Distribution2D().sample({0.5f, 0.5f}), "broken invariant");
 }
 
 TEST(Distribution2D, IsEmptyWhereBlack) {

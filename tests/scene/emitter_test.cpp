@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "isophote/core/error.h"
 #include "isophote/sampling/warp.h"
-#include "isophote/scene/near_grid.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
 
@@ -264,6 +264,54 @@ TEST(Emitters, PunctualLightsHaveClosedForms) {
   EXPECT_TRUE(is_black(spot.sample({2, 0, 0}, 0.5f, {}).radiance));
 }
 
+TEST(Emitters, PeaksAreOneEmitterHoweverMany) {
+  // Bright caps at both poles, 1/40 of the sphere, have more texels than there may be triangles.
+  Scene scene = two_lamps();
+  const int width = 4096, height = 2048;
+  scene.environment.radiance = RgbImage(width, height, Rgb(0.0f));
+  for (int y = 0; y < height; ++y)
+    if (std::abs(std::cos(pi * (static_cast<float>(y) + 0.5f) / height)) > 1 - 1 / 40.0f)
+      for (int x = 0; x < width; ++x) scene.environment.radiance.at(x, y) = Rgb(1.0f);
+  const Emitters emitters(scene);
+  std::size_t peaks = 0;
+  for (const Rgb& pixel : scene.environment.radiance.pixels) peaks += pixel.g > 0;
+  EXPECT_GT(peaks, Emitters::most);
+  EXPECT_TRUE(emitters.environment({0, 1, 0}).sampled_directly);
+  for (const Among among : {Among::all, Among::sampled_directly}) {
+    int sky = 0;
+    constexpr int draws = 1 << 12;
+    for (int i = 0; i < draws; ++i) {
+      const LightSample s = emitters.sample({}, static_cast<float>(i) / draws, {0.3f, 0.6f}, among);
+      sky += s.distance == infinity;
+      if (s.distance == infinity) {
+        EXPECT_NEAR(s.pdf / emitters.environment_pdf(s.direction, among), 1, 1e-3);
+      }
+    }
+    EXPECT_GT(sky, draws / 50);  // a tenth goes to four triangles and the peaks alike
+  }
+}
+
+TEST(Emitters, TooManyTrianglesAreRefused) {
+  Scene scene = two_lamps();
+  scene.meshes[0].triangles.resize(Emitters::most, scene.meshes[0].triangles[0]);
+  try {
+    Emitters{scene};
+    ADD_FAILURE() << "not refused";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find(std::to_string(Emitters::most)), std::string::npos);
+  }
+  scene.meshes[0].triangles.resize(Emitters::most - 2);
+  scene.environment = sky(false);
+  const Emitters emitters(scene);
+  for (const Among among : {Among::all, Among::sampled_directly}) {
+    int forgotten = 0;
+    const Hit at{0, 0, 0.3f, 0.3f};
+    for (std::uint32_t t = 0; t < Emitters::most - 2; ++t)
+      forgotten += !(emitters.triangle_pdf({0, t, at.u, at.v}, {}, {0, 1, 0}, among) > 0);
+    EXPECT_EQ(forgotten, 0);
+  }
+}
+
 TEST(Emitters, EmptyWithoutLight) {
   Scene scene = scenes::room(scenes::diffuse(Rgb(0.5f)));
   EXPECT_TRUE(Emitters(scene).empty());
@@ -289,16 +337,6 @@ TEST(Emitters, NearIsConservative) {
   }
   EXPECT_GT(needed, 0);
   EXPECT_LT(near, 20000 / 5);
-}
-
-TEST(NearGrid, MarksWhatIsWithinReach) {
-  const Box bounds{{0, 0, 0}, {10, 1, 0}};  // flat
-  const NearGrid grid(bounds, {{{{2, 0.5f, 0}, {2.5f, 0.5f, 0}}, 1}});
-  EXPECT_TRUE(grid.marked({1.01f, 0.5f, 0}));
-  EXPECT_TRUE(grid.marked({3.49f, 0.9f, 0}));
-  EXPECT_FALSE(grid.marked({4, 0.5f, 0}));
-  EXPECT_FALSE(grid.marked({0.5f, 0.5f, 0}));
-  EXPECT_FALSE(NearGrid().marked({0, 0, 0}));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "isophote/core/check.h"
@@ -22,23 +23,38 @@ struct Place {
   float fraction;
 };
 Place invert(const float* cumulative, int count, float u) {
-  const float* above = std::upper_bound(cumulative + 1, cumulative + count + 1, u);
-  const int i = std::min(static_cast<int>(above - cumulative) - 1, count - 1);
-  const float fraction = (u - cumulative[i]) / (cumulative[i + 1] - cumulative[i]);
-  return {i, std::min(fraction, 0x1.fffffep-1f)};
+  const float* above = std::upper_bound(cumulative + 1, cumulative + count, u);
+  const auto i = static_cast<int>(above - cumulative) - 1;
+  // From the middle of the step that u stands for: a cell may be as narrow as one.
+  constexpr float half_step = 0.5f / grid;
+  return {i, (u - cumulative[i] + half_step) / (cumulative[i + 1] - cumulative[i])};
 }
 
-/// Writes count + 1 cumulative values and returns the sum of the weights; where that is 0, the values are 0.
-double accumulate(const auto& weight, int count, float* cumulative) {
+/// The cell, of `count`, that a coordinate of the unit interval lies in.
+int cell(float coordinate, int count) {
+  const auto n = static_cast<float>(count);
+  return static_cast<int>(std::min(n - 1, std::max(0.0f, coordinate * n)));
+}
+
+/// The coordinate at a fraction of a cell, one below 1 that lies in this cell however it rounds.
+float coordinate(const Place& place, int count) {
+  float p = std::min((static_cast<float>(place.index) + place.fraction) / static_cast<float>(count), 0x1.fffffep-1f);
+  while (cell(p, count) > place.index) p = std::nextafter(p, 0.0f);
+  while (cell(p, count) < place.index) p = std::nextafter(p, 1.0f);
+  return p;
+}
+
+/// Writes count + 1 cumulative values, multiples of 2^-24; the sum of the weights is not 0.
+void accumulate(const auto& weight, int count, float* cumulative) {
   double sum = 0;
   for (int i = 0; i < count; ++i) sum += weight(i);
+  const double scale = grid / sum;
   double running = 0;
   cumulative[0] = 0;
   for (int i = 0; i < count; ++i) {
     running += weight(i);
-    cumulative[i + 1] = sum > 0 ? static_cast<float>(running / sum) : 0.0f;
+    cumulative[i + 1] = static_cast<float>(static_cast<std::int32_t>(running * scale + 0.5)) / grid;
   }
-  return sum;
 }
 
 }  // namespace
@@ -78,6 +94,7 @@ AliasTable::AliasTable(std::span<const double> weights) {
 }
 
 std::uint32_t AliasTable::sample(float u) const {
+  ISOPHOTE_CHECK(entries_.size(), >, 0u);
   const std::uint64_t x = static_cast<std::uint64_t>(u * static_cast<float>(grid)) * entries_.size();
   const auto slot = static_cast<std::uint32_t>(x / grid);
   return x % grid < entries_[slot].threshold ? slot : entries_[slot].alias;
@@ -85,33 +102,46 @@ std::uint32_t AliasTable::sample(float u) const {
 
 Distribution2D::Distribution2D(std::span<const float> weights, int width, int height) : width_(width), height_(height) {
   ISOPHOTE_CHECK(weights.size(), ==, static_cast<std::size_t>(width) * height);
-  rows_.resize(static_cast<std::size_t>(height) + 1);
-  columns_.resize((static_cast<std::size_t>(width) + 1) * height);
   std::vector<double> sums(height);
   for (int y = 0; y < height; ++y) {
-    const float* row = weights.data() + static_cast<std::size_t>(y) * width;
-    float* cumulative = columns_.data() + static_cast<std::size_t>(y) * (width + 1);
-    sums[y] = accumulate([&](int x) { return static_cast<double>(row[x]); }, width, cumulative);
+    const auto row = weights.subspan(static_cast<std::size_t>(y) * width, width);
+    sums[y] = std::accumulate(row.begin(), row.end(), 0.0);
   }
-  if (accumulate([&](int y) { return sums[y]; }, height, rows_.data()) > 0) return;
-  rows_.clear();
-  columns_.clear();
+  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+  ISOPHOTE_CHECK(sum, <, std::numeric_limits<double>::infinity());  // nor is it NaN
+  if (sum == 0) return;
+
+  cumulative_rows_.resize(static_cast<std::size_t>(height) + 1);
+  accumulate([&](int y) { return sums[y]; }, height, cumulative_rows_.data());
+  stored_row_.resize(height);
+  std::uint32_t stored = 0;
+  for (int y = 0; y < height; ++y)
+    if (cumulative_rows_[y + 1] > cumulative_rows_[y]) stored_row_[y] = stored++;
+  cumulative_columns_.resize((static_cast<std::size_t>(width) + 1) * stored);
+  for (int y = 0; y < height; ++y) {
+    if (!(cumulative_rows_[y + 1] > cumulative_rows_[y])) continue;
+    const float* row = weights.data() + static_cast<std::size_t>(y) * width;
+    accumulate([&](int x) { return static_cast<double>(row[x]); }, width,
+               cumulative_columns_.data() + static_cast<std::size_t>(stored_row_[y]) * (width + 1));
+  }
 }
 
 Vec2 Distribution2D::sample(Vec2 u) const {
-  const auto [y, fy] = invert(rows_.data(), height_, u.y);
-  const auto [x, fx] = invert(columns_.data() + static_cast<std::size_t>(y) * (width_ + 1), width_, u.x);
-  // The quotient may round up to the next cell; the point belongs to this one.
-  const float px = std::min((x + fx) / width_, std::nextafter((x + 1.0f) / width_, 0.0f));
-  const float py = std::min((y + fy) / height_, std::nextafter((y + 1.0f) / height_, 0.0f));
-  return {px, py};
+  ISOPHOTE_CHECK(cumulative_rows_.size(), >, 0u);
+  const Place row = invert(cumulative_rows_.data(), height_, u.y);
+  const Place column = invert(columns(row.index), width_, u.x);
+  return {coordinate(column, width_), coordinate(row, height_)};
+}
+
+float Distribution2D::probability(int x, int y) const {
+  const float row = cumulative_rows_[y + 1] - cumulative_rows_[y];
+  if (!(row > 0)) return 0;
+  const float* cumulative = columns(y) + x;
+  return row * (cumulative[1] - cumulative[0]);
 }
 
 float Distribution2D::pdf(Vec2 p) const {
-  const int x = std::clamp(static_cast<int>(p.x * width_), 0, width_ - 1);
-  const int y = std::clamp(static_cast<int>(p.y * height_), 0, height_ - 1);
-  const float* columns = columns_.data() + static_cast<std::size_t>(y) * (width_ + 1) + x;
-  return (rows_[y + 1] - rows_[y]) * (columns[1] - columns[0]) * (static_cast<float>(width_) * height_);
+  return probability(cell(p.x, width_), cell(p.y, height_)) * (static_cast<float>(width_) * height_);
 }
 
 }  // namespace isophote

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 
 #include "isophote/core/error.h"
 #include "isophote/sampling/warp.h"
+#include "isophote/scene/emissive_triangles.h"
 #include "isophote/scene/environment.h"
 #include "isophote/scene/near_grid.h"
 
@@ -15,57 +17,10 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-struct Triangle {
-  Vec3 origin, edge1, edge2;
-  Vec3 normal;  // of its winding
-  float area = 0;
-  std::uint32_t mesh = 0, triangle = 0;
-  bool double_sided = false, varies = false;  // varies: emission or opacity, over the triangle
-  Rgb radiance;                               // where it does not vary
-};
-
-/// Radiance that leaves a hit, what the material lets through taken off.
-Rgb covered_emission(const Scene& scene, const Hit& hit) { return emission(scene, hit) * opacity(scene, hit); }
-
-/// How many texels the longest edge of a triangle spans in the textures that make its light vary.
-int texel_span(const Scene& scene, const Mesh& mesh, const std::array<std::uint32_t, 3>& ids,
-               const Material& material) {
-  float longest = 1;
-  for (const TextureUse* use : {&material.emission_texture, &material.base_color_texture}) {
-    if (use->texture < 0 || mesh.uv[use->uv_set].empty()) continue;
-    const auto& uv = mesh.uv[use->uv_set];
-    const auto& m = use->matrix;
-    const Texture& texture = scene.textures[use->texture];
-    for (int i = 0; i < 3; ++i) {
-      const Vec2 d = uv[ids[i]] - uv[ids[(i + 1) % 3]];
-      const float x = (m[0] * d.x + m[1] * d.y) * static_cast<float>(texture.width);
-      const float y = (m[3] * d.x + m[4] * d.y) * static_cast<float>(texture.height);
-      longest = std::max(longest, std::sqrt(x * x + y * y));
-    }
-  }
-  constexpr float most = 256;
-  return static_cast<int>(std::ceil(std::min(longest, most)));
-}
-
-/// Mean luminance of a triangle, at the middles of n^2 equal parts, n enough to see every texel.
-double mean_luminance(const Scene& scene, const Triangle& t, int n) {
-  double sum = 0;
-  const auto at = [&](float i, float j) {
-    sum +=
-        luminance(covered_emission(scene, {t.mesh, t.triangle, i / static_cast<float>(n), j / static_cast<float>(n)}));
-  };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; i + j < n; ++j) {
-      at(static_cast<float>(i) + 1 / 3.0f, static_cast<float>(j) + 1 / 3.0f);
-      if (i + j + 1 < n) at(static_cast<float>(i) + 2 / 3.0f, static_cast<float>(j) + 2 / 3.0f);
-    }
-  return sum / (static_cast<double>(n) * n);
-}
-
 float square(float x) { return x * x; }
 
 double power(const PunctualLight& light, double scene_radius) {
-  const double intensity = luminance(light.intensity);
+  const double intensity = luminance(Rgbd(light.intensity));
   switch (light.kind) {
     case PunctualLight::Kind::point:
       return 4 * pi * intensity;
@@ -93,29 +48,29 @@ LightSample sample_punctual(const PunctualLight& light, const Vec3& from) {
   const Vec3 direction = offset / distance;
   float falloff = light.range == infinity ? 1.0f : 1 - square(square(distance / light.range));
   if (light.kind == PunctualLight::Kind::spot) falloff *= spot_falloff(light, direction);
-  return {direction, distance, light.intensity * (falloff / square(distance)), 1, true, true};
+  return {direction, distance, light.intensity * (falloff / square(distance)), 1, true, true, light.position};
 }
 
 }  // namespace
 
 struct Emitters::Impl {
   explicit Impl(const Scene& scene_);
-  void add_triangles(std::vector<double>& weights);
+  void number_triangles();
   void make_tables(std::vector<double> weights);
 
   // The order of choices: triangles, punctual lights, peaks of the environment, its rest.
   std::size_t first_light() const { return triangles.size(); }
-  std::size_t first_peak() const { return first_light() + scene.lights.size(); }
-  std::size_t rest() const { return first_peak() + environment.peaks().size(); }
+  std::size_t peaks() const { return first_light() + scene.lights.size(); }
+  std::size_t rest() const { return peaks() + 1; }
   const AliasTable& table(Among among) const { return among == Among::all ? all : direct; }
 
-  LightSample sample_triangle(const Triangle& t, const Vec3& from, Vec2 u) const;
+  LightSample sample_triangle(const EmissiveTriangle& t, const Vec3& from, Vec2 u) const;
   LightSample sample_environment(std::size_t index, Vec2 u) const;
-  float pdf(const Triangle& t, const Vec3& from, const Vec3& to, const Vec3& direction) const;
+  float pdf(const EmissiveTriangle& t, const Vec3& from, const Vec3& to, const Vec3& direction) const;
 
   const Scene& scene;
   Environment environment;
-  std::vector<Triangle> triangles;
+  std::vector<EmissiveTriangle> triangles;
   std::vector<std::uint32_t> first_of_mesh;  // into emitter_of; none: the mesh does not emit
   std::vector<std::uint32_t> emitter_of;     // triangle of an emissive mesh -> triangles; none: black
   AliasTable all, direct;
@@ -125,19 +80,19 @@ struct Emitters::Impl {
 Emitters::Impl::Impl(const Scene& scene_) : scene(scene_), environment(scene_.environment) {
   const Box bounds = scene.bounds();
   const double radius = bounds.empty() ? 1.0 : 0.5 * bounds.diagonal();
-  std::vector<double> weights;
-  add_triangles(weights);
+  auto [emissive, weights] = emissive_triangles(scene);
+  triangles = std::move(emissive);
+  number_triangles();
   for (const PunctualLight& light : scene.lights) weights.push_back(power(light, radius));
-  for (const auto& peak : environment.peaks()) weights.push_back(pi * radius * radius * peak.power);
+  if (weights.size() > most)
+    throw UserError("the scene has more than " + std::to_string(most) + " emissive triangles and lights");
+  weights.push_back(pi * radius * radius * environment.peak_power());
   weights.push_back(pi * radius * radius * environment.rest_power());
-  // The choice is made on a grid of 2^24 numbers, which must leave some to each.
-  if (weights.size() > 1u << 20)
-    throw UserError("the scene has more than 1048576 emissive triangles, lights and sun-like texels");
   make_tables(std::move(weights));
 
   std::vector<NearGrid::Place> places;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const Triangle& t = triangles[i];
+    const EmissiveTriangle& t = triangles[i];
     Box box;
     for (const Vec3& p : {t.origin, t.origin + t.edge1, t.origin + t.edge2}) box.extend(p);
     // At distance r and both cosines 1, sampling has the density chance r^2 / area, a cosine-distributed ray 1 / pi.
@@ -147,38 +102,16 @@ Emitters::Impl::Impl(const Scene& scene_) : scene(scene_), environment(scene_.en
   near = NearGrid(bounds, places);
 }
 
-void Emitters::Impl::add_triangles(std::vector<double>& weights) {
+void Emitters::Impl::number_triangles() {
   first_of_mesh.assign(scene.meshes.size(), none);
-  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
-    const Mesh& mesh = scene.meshes[m];
-    const Material& material = scene.materials[mesh.material];
-    if (is_black(material.emission)) continue;
-    first_of_mesh[m] = static_cast<std::uint32_t>(emitter_of.size());
-    const bool varies = material.emission_texture.texture >= 0 || material.alpha != Alpha::opaque;
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-      const auto& ids = mesh.triangles[i];
-      Triangle t{mesh.positions[ids[0]],
-                 mesh.positions[ids[1]] - mesh.positions[ids[0]],
-                 mesh.positions[ids[2]] - mesh.positions[ids[0]],
-                 {},
-                 0,
-                 m,
-                 i,
-                 material.double_sided,
-                 varies,
-                 material.emission};
-      const Vec3 across = cross(t.edge1, t.edge2);
-      const float size = length(across);
-      const double mean =
-          varies ? mean_luminance(scene, t, texel_span(scene, mesh, ids, material)) : luminance(material.emission);
-      const bool emits = size > 0 && mean > 0;
-      emitter_of.push_back(emits ? static_cast<std::uint32_t>(triangles.size()) : none);
-      if (!emits) continue;
-      t.normal = across / size;
-      t.area = 0.5f * size;
-      triangles.push_back(t);
-      weights.push_back(pi * t.area * mean * (t.double_sided ? 2 : 1));
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const EmissiveTriangle& t = triangles[i];
+    std::uint32_t& first = first_of_mesh[t.mesh];
+    if (first == none) {
+      first = static_cast<std::uint32_t>(emitter_of.size());
+      emitter_of.resize(first + scene.meshes[t.mesh].triangles.size(), none);
     }
+    emitter_of[first + t.triangle] = i;
   }
 }
 
@@ -199,13 +132,13 @@ void Emitters::Impl::make_tables(std::vector<double> weights) {
   all = AliasTable(weights);
 }
 
-float Emitters::Impl::pdf(const Triangle& t, const Vec3& from, const Vec3& to, const Vec3& direction) const {
+float Emitters::Impl::pdf(const EmissiveTriangle& t, const Vec3& from, const Vec3& to, const Vec3& direction) const {
   const float cosine = -dot(t.normal, direction);
   if (cosine == 0 || (cosine < 0 && !t.double_sided)) return 0;
   return length_squared(to - from) / (t.area * std::abs(cosine));
 }
 
-LightSample Emitters::Impl::sample_triangle(const Triangle& t, const Vec3& from, Vec2 u) const {
+LightSample Emitters::Impl::sample_triangle(const EmissiveTriangle& t, const Vec3& from, Vec2 u) const {
   const Vec2 b = uniform_triangle(u);
   const Vec3 to = t.origin + t.edge1 * b.x + t.edge2 * b.y;
   const float distance = length(to - from);
@@ -214,13 +147,14 @@ LightSample Emitters::Impl::sample_triangle(const Triangle& t, const Vec3& from,
   const float density = pdf(t, from, to, direction);
   if (!(density > 0)) return {};
   const Rgb radiance = t.varies ? covered_emission(scene, {t.mesh, t.triangle, b.x, b.y}) : t.radiance;
-  return {direction, distance, radiance, density, false, true};
+  const float lift = ray_offset(to, t.origin, t.edge1, t.edge2, distance);
+  const Vec3 end = to + t.normal * std::copysign(lift, -dot(t.normal, direction));
+  return {direction, distance, radiance, density, false, true, end};
 }
 
 LightSample Emitters::Impl::sample_environment(std::size_t index, Vec2 u) const {
-  const bool peak = index < rest();
-  const Vec2 point =
-      peak ? environment.sample_peak(static_cast<std::uint32_t>(index - first_peak()), u) : environment.sample_rest(u);
+  const bool peak = index == peaks();
+  const Vec2 point = peak ? environment.sample_peaks(u) : environment.sample_rest(u);
   const float density = peak ? environment.peak_pdf(point) : environment.rest_pdf(point);
   return {environment.direction(point), infinity, environment.radiance(point), density, false, peak};
 }
@@ -232,9 +166,9 @@ bool Emitters::empty(Among among) const { return impl_->table(among).empty(); }
 LightSample Emitters::sample(const Vec3& from, float u_choice, Vec2 u, Among among) const {
   const AliasTable& table = impl_->table(among);
   const std::uint32_t i = table.sample(u_choice);
-  LightSample s = i < impl_->first_light()  ? impl_->sample_triangle(impl_->triangles[i], from, u)
-                  : i < impl_->first_peak() ? sample_punctual(impl_->scene.lights[i - impl_->first_light()], from)
-                                            : impl_->sample_environment(i, u);
+  LightSample s = i < impl_->first_light() ? impl_->sample_triangle(impl_->triangles[i], from, u)
+                  : i < impl_->peaks()     ? sample_punctual(impl_->scene.lights[i - impl_->first_light()], from)
+                                           : impl_->sample_environment(i, u);
   s.pdf *= table.probability(i);
   return s;
 }
@@ -244,7 +178,7 @@ float Emitters::triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direc
   if (first == none || impl_->table(among).empty()) return 0;
   const std::uint32_t i = impl_->emitter_of[first + hit.triangle];
   if (i == none) return 0;
-  const Triangle& t = impl_->triangles[i];
+  const EmissiveTriangle& t = impl_->triangles[i];
   return impl_->table(among).probability(i) *
          impl_->pdf(t, from, t.origin + t.edge1 * hit.u + t.edge2 * hit.v, direction);
 }
@@ -253,9 +187,8 @@ float Emitters::environment_pdf(const Vec3& direction, Among among) const {
   const AliasTable& table = impl_->table(among);
   if (impl_->environment.empty() || table.empty()) return 0;
   const Vec2 point = impl_->environment.point(direction);
-  if (const auto peak = impl_->environment.peak_at(point))
-    return table.probability(static_cast<std::uint32_t>(impl_->first_peak()) + *peak) *
-           impl_->environment.peak_pdf(point);
+  if (const float peak = impl_->environment.peak_pdf(point); peak > 0)
+    return table.probability(static_cast<std::uint32_t>(impl_->peaks())) * peak;
   if (among == Among::sampled_directly) return 0;
   return table.probability(static_cast<std::uint32_t>(impl_->rest())) * impl_->environment.rest_pdf(point);
 }
@@ -263,7 +196,7 @@ float Emitters::environment_pdf(const Vec3& direction, Among among) const {
 Emitters::Sky Emitters::environment(const Vec3& direction) const {
   if (impl_->environment.empty()) return {};
   const Vec2 point = impl_->environment.point(direction);
-  return {impl_->environment.radiance(point), impl_->environment.peak_at(point).has_value()};
+  return {impl_->environment.radiance(point), impl_->environment.in_peak(point)};
 }
 
 bool Emitters::near(const Vec3& from) const { return impl_->near.marked(from); }

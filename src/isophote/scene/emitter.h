@@ -18,26 +18,32 @@ struct LightSample {
   float pdf = 0;  ///< solid angle, the chance of choosing this emitter included; for a delta light only that chance
   bool delta = false;
   bool sampled_directly = true;
+  Vec3 end{};  ///< where a shadow ray ends, for a finite distance: at the light, off its triangle on the side of `from`
 };
 
 /// All that emits, chosen by power, with a tenth of the choice to all alike: emissive triangles (textures averaged over
-/// them), punctual lights and the environment, which is split in two: peaks (sun-like texels) and the rest. Lamps,
-/// punctual lights and peaks are `sampled_directly`: their light scattered once is direct light. The rest of the
-/// environment is not: it is seen by gathers and cached. Never both. The rest is chosen with a chance of at most 1/2
-/// beside others: power cannot know how much of the sky is hidden, and rays chosen by the BSDF find it too.
+/// them), punctual lights and the environment, which is split in two: its peaks (all sun-like texels together) and the
+/// rest. Lamps, punctual lights and peaks are `sampled_directly`: their light scattered once is direct light. The rest
+/// of the environment is not: it is seen by gathers and cached. Never both. The rest is chosen with a chance of at most
+/// 1/2 beside others: power cannot know how much of the sky is hidden, and rays chosen by the BSDF find it too.
 class Emitters {
  public:
   /// What `sample` chooses among.
   enum class Among : std::uint8_t { all, sampled_directly };
 
-  /// `scene` must outlive this.
+  /// Emissive triangles and punctual lights together: of the 2^24 numbers that the choice is made with, a twentieth (a
+  /// tenth, the rest of the environment taking half of all) must leave one to each.
+  static constexpr std::size_t most = 3 << 18;
+
+  /// `scene` must outlive this. Throws UserError, which names no file, where the scene has more than `most`.
   explicit Emitters(const Scene& scene);
 
   bool empty(Among among = Among::all) const;
   /// One emitter and one direction towards it; pdf 0 where the emitter does not shine on `from` at all. `empty` must
   /// not hold.
   LightSample sample(const Vec3& from, float u_choice, Vec2 u, Among among = Among::all) const;
-  /// The density (solid angle) with which `sample` gives the direction in which the triangle of `hit` was met.
+  /// The density (solid angle) with which `sample` gives the direction in which the triangle of `hit` was met. Above 0
+  /// wherever the triangle shines on `from`.
   float triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direction, Among among = Among::all) const;
   float environment_pdf(const Vec3& direction, Among among = Among::all) const;
 

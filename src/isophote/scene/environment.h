@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <vector>
+#include <algorithm>
+#include <cmath>
 
+#include "isophote/core/ray.h"
 #include "isophote/core/rgb.h"
 #include "isophote/sampling/distribution.h"
 #include "isophote/scene/scene.h"
@@ -25,27 +25,26 @@ class Environment {
   Vec3 direction(Vec2 point) const;
   Rgb radiance(Vec2 point) const;
 
-  struct Peak {
-    std::uint32_t texel;
-    double power;  ///< luminance integrated over the texel's solid angle
-  };
-  const std::vector<Peak>& peaks() const { return peaks_; }
+  /// Luminance integrated over the solid angle of all peaks, and of the rest. Where it is 0 there is none to sample.
+  double peak_power() const { return peak_power_; }
   double rest_power() const { return rest_power_; }
 
-  /// The peak that the point lies in.
-  std::optional<std::uint32_t> peak_at(Vec2 point) const;
-  /// A point of a peak's texel, and the density there in solid angle.
-  Vec2 sample_peak(std::uint32_t peak, Vec2 u) const;
-  float peak_pdf(Vec2 point) const;
-  /// A point of the rest, in proportion to its luminance, and the density in solid angle.
+  /// A point of the peaks, in proportion to luminance, with a tenth of the choice uniform over them, and its density in
+  /// solid angle. All of the peaks, and nothing else, has a density above 0.
+  Vec2 sample_peaks(Vec2 u) const { return peaks_.sample(u); }
+  float peak_pdf(Vec2 point) const { return peaks_.empty() ? 0.0f : peaks_.pdf(point) / stretch(point); }
+  bool in_peak(Vec2 point) const { return !peaks_.empty() && peaks_.pdf(point) > 0; }
+  /// A point of the rest, in proportion to luminance, and its density in solid angle.
   Vec2 sample_rest(Vec2 u) const { return rest_.sample(u); }
-  float rest_pdf(Vec2 point) const;
+  float rest_pdf(Vec2 point) const { return rest_.empty() ? 0.0f : rest_.pdf(point) / stretch(point); }
 
  private:
+  /// Solid angle of an area element of the unit square, over its area.
+  static float stretch(Vec2 point) { return 2 * pi * pi * std::sin(pi * std::min(point.y, 1 - point.y)); }
+
   const EnvironmentMap& map_;
-  std::vector<Peak> peaks_;  // by texel
-  double rest_power_ = 0;
-  Distribution2D rest_;
+  double peak_power_ = 0, rest_power_ = 0;
+  Distribution2D peaks_, rest_;
 };
 
 }  // namespace isophote

@@ -1,53 +1,38 @@
 #include "isophote/scene/near_grid.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace isophote {
-namespace {
-
-struct Cells {
-  int first[3], last[3];
-  void for_each_row(const auto& visit) const {
-    for (int z = first[2]; z <= last[2]; ++z)
-      for (int y = first[1]; y <= last[1]; ++y) visit(first[0], last[0], y, z);
-  }
-};
-
-}  // namespace
 
 NearGrid::NearGrid(const Box& bounds, const std::vector<Place>& places) {
   if (places.empty() || bounds.empty() || !(bounds.diagonal() > 0)) return;
   lower_ = bounds.lower;
   const float least = bounds.diagonal() / side;  // a flat box is one cell thick
   for (int axis = 0; axis < 3; ++axis) cell_size_[axis] = std::max(bounds.size()[axis], least) / side;
-  const auto around = [&](const Box& box, float distance) {
-    Cells cells;
-    for (int axis = 0; axis < 3; ++axis) {
-      cells.first[axis] = cell(box.lower[axis] - distance, axis);
-      cells.last[axis] = cell(box.upper[axis] + distance, axis);
-    }
-    return cells;
-  };
 
-  // First the furthest reach from each cell, then what is reached: the places may be many and all reach far.
-  std::vector<float> reach(static_cast<std::size_t>(side) * side * side, -1.0f);
-  for (const Place& place : places)
-    around(place.box, 0).for_each_row([&](int x0, int x1, int y, int z) {
-      for (int x = x0; x <= x1; ++x) reach[index(x, y, z)] = std::max(reach[index(x, y, z)], place.distance);
-    });
-  marks_.resize(reach.size());
+  // In how many boxes each cell is, as differences along all three axes: a box is a change at its eight corners.
+  constexpr std::size_t step_y = side + 1, step_z = step_y * (side + 1), count = step_z * (side + 1);
+  std::vector<std::int32_t> boxes(count);
+  for (const Place& place : places) {
+    std::size_t from[3], to[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      from[axis] = cell(place.box.lower[axis] - place.distance, axis);
+      to[axis] = cell(place.box.upper[axis] + place.distance, axis) + 1;
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      const std::size_t x = corner & 1 ? to[0] : from[0], y = corner & 2 ? to[1] : from[1],
+                        z = corner & 4 ? to[2] : from[2];
+      boxes[z * step_z + y * step_y + x] += std::popcount(static_cast<unsigned>(corner)) % 2 == 0 ? 1 : -1;
+    }
+  }
+  // A sum may run on into the next row or layer: what it brings there is 0, as each box has ended before.
+  for (const std::size_t step : {std::size_t{1}, step_y, step_z})
+    for (std::size_t i = step; i < count; ++i) boxes[i] += boxes[i - step];
+  marks_.resize(static_cast<std::size_t>(side) * side * side);
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        const float distance = reach[index(x, y, z)];
-        if (distance < 0) continue;
-        const auto fx = static_cast<float>(x), fy = static_cast<float>(y), fz = static_cast<float>(z);
-        const Vec3 low = lower_ + Vec3{fx * cell_size_.x, fy * cell_size_.y, fz * cell_size_.z};
-        around({low, low + cell_size_}, distance).for_each_row([&](int x0, int x1, int row, int layer) {
-          std::fill(marks_.begin() + index(x0, row, layer), marks_.begin() + index(x1, row, layer) + 1,
-                    std::uint8_t{1});
-        });
-      }
+      for (int x = 0; x < side; ++x) marks_[index(x, y, z)] = boxes[z * step_z + y * step_y + x] > 0;
 }
 
 int NearGrid::cell(float x, int axis) const {

@@ -16,7 +16,7 @@ class NearGrid {
   };
 
   NearGrid() = default;
-  /// Points to be asked about lie in `bounds`.
+  /// Points to be asked about lie in `bounds`. Takes constant time for each place, however large.
   NearGrid(const Box& bounds, const std::vector<Place>& places);
 
   bool marked(const Vec3& p) const;
