@@ -35,7 +35,8 @@ class RecordFileTest : public testing::Test {
     RecordFile file{0x0123456789abcdefull, "method=bounded\na=0.2\nseed=7\n", {}};
     for (int i = 0; i < count; ++i) {
       Record r = round_record(random.point({-5, -5, -5}, {5, 5, 5}), random.direction(), random.number(0.1f, 1), 5);
-      r.footprint.shape.xy = random.number(-0.1f, 0.1f);
+      r.footprint.shape.xx *= 1.5f, r.footprint.shape.yy *= 1.5f;
+      r.footprint.shape.xy = random.number(-0.4f, 0.4f);
       r.footprint.unscaled = random.number(0, 9);
       r.footprint.smallest = random.number(0, 0.1f);
       r.footprint.largest = i % 2 ? infinity : 3;
@@ -179,6 +180,10 @@ TEST_F(RecordFileTest, UnusableRecordsWithARightChecksumAreRefused) {
       [&](Record& r) { r.footprint.shape.xx = -1; },
       [&](Record& r) { r.footprint.shape.zz = infinity; },
       [&](Record& r) { r.footprint.shape.xy = nan; },
+      [&](Record& r) { r.footprint.shape.xy = r.footprint.shape.xx; },  // a positive diagonal, but a saddle
+      [&](Record& r) { r.footprint.shape.yz = 2 * r.footprint.shape.zz; },
+      [&](Record& r) { r.footprint.shape.zz *= 0.99f; },  // reaches beyond the radius
+      [&](Record& r) { r.footprint.radius *= 0.99f; },
       [&](Record& r) { r.footprint.normal_scale = nan; },
       [&](Record& r) { r.footprint.normal_scale = -1; },
       [&](Record& r) { r.footprint.radius = 0; },
@@ -192,8 +197,13 @@ TEST_F(RecordFileTest, UnusableRecordsWithARightChecksumAreRefused) {
       [&](Record& r) { r.gradient_scale = nan; },
       [&](Record& r) { r.gradient_scale = 1.5f; },
       [&](Record& r) { r.jet.value.g = infinity; },
+      [&](Record& r) { r.jet.value.g = nan; },
+      [&](Record& r) { r.jet.value.b = -1e-3f; },
+      [&](Record& r) { r.jet.value.r = 3e38f; },
       [&](Record& r) { r.jet.translational.z.b = nan; },
+      [&](Record& r) { r.jet.translational.y.g = -2e30f / r.footprint.radius; },
       [&](Record& r) { r.jet.rotational.x.r = nan; },
+      [&](Record& r) { r.jet.rotational.z.b = 3e38f; },
       [&](Record& r) { r.jet.distances.harmonic_mean = nan; },
   };
   for (std::size_t i = 0; i < harms.size(); ++i) {
@@ -213,8 +223,44 @@ TEST_F(RecordFileTest, WhatIsNoRecordFile) {
   }
   fs::remove(path_);
   fs::create_directory(path_);
-  EXPECT_EQ(refusal(), "cannot be read");
+  EXPECT_EQ(refusal(), "is not a regular file");
   EXPECT_THROW(write_records(path_, sample(1)), UserError);
+}
+
+// Neither what never ends is read to its end, nor is a count believed before there are records to it.
+TEST_F(RecordFileTest, HugeFilesAreRefusedAtOnce) {
+  path_ = "/dev/zero";
+  EXPECT_EQ(refusal(), "is not a regular file");
+  SetUp();
+  write_records(path_, sample(1));
+  const std::string head = bytes().substr(0, settings_at);
+  for (const std::size_t start : {std::size_t{0}, settings_at}) {  // the rest is a hole, which takes no disk
+    put(head.substr(0, start));
+    fs::resize_file(path_, 1ull << 40);
+    EXPECT_NE(refusal(), "") << start;
+  }
+  std::string counting = head;
+  put_integer(counting, settings_at - 4, 0, 4);
+  const std::uint64_t count = (1ull << 40) / record_bytes;
+  counting.resize(settings_at + 8);
+  put_integer(counting, settings_at, count, 8);
+  put(counting);
+  fs::resize_file(path_, settings_at + 16 + record_bytes * count);
+  EXPECT_EQ(refusal(), "record 0 is malformed");
+}
+
+// A footprint may be flatter than its radius along any axis.
+TEST_F(RecordFileTest, FlatFootprintsAreKept) {
+  RecordFile file = sample(1);
+  Footprint& f = file.records[0].footprint;
+  const Vec3 axis = normalize(Vec3{1, 2, -2});
+  for (const float height : {1.0f, 0.5f, 0.1f, 0.01f}) {
+    const float base = 1 / (f.radius * f.radius), more = base / (height * height) - base;
+    f.shape = {base + more * axis.x * axis.x, more * axis.x * axis.y, more * axis.x * axis.z,
+               base + more * axis.y * axis.y, more * axis.y * axis.z, base + more * axis.z * axis.z};
+    write_records(path_, file);
+    EXPECT_EQ(refusal(), "") << height;
+  }
 }
 
 TEST_F(RecordFileTest, MismatchesNameTheReason) {

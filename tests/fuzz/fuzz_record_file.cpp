@@ -1,6 +1,7 @@
 // Reads any bytes as a record file, as they are and with a right checksum, and looks up in what was accepted.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -22,12 +23,21 @@ std::string content(const std::string& path) {
   return text.str();
 }
 
+/// Interpolated irradiance is neither negative nor beyond numbers.
+void look_up(const RecordCache& cache, const Record& record, const Vec3& offset) {
+  const auto found =
+      cache.interpolate({record.position + offset * record.footprint.radius, record.normal, record.normal});
+  if (found && !(is_finite(*found) && std::min({found->r, found->g, found->b}) >= 0)) std::abort();
+}
+
 /// What was accepted can be indexed and looked up, and is written back as it was.
 void use(const std::string& path, const std::string& bytes) {
   const RecordFile file = read_records(path);
   RecordCache cache({{0, 0, 0}, {1, 1, 1}});
   for (const Record& record : file.records) cache.insert(record);
-  for (const Record& record : file.records) cache.interpolate({record.position, record.normal, record.normal});
+  for (const Record& record : file.records)
+    for (const Vec3& offset : {Vec3{}, Vec3{0.5f, 0, 0}, Vec3{0, 0.5f, 0}, Vec3{0, 0, 0.5f}})
+      look_up(cache, record, offset);
   write_records(path, file);
   if (content(path) != bytes) std::abort();
 }

@@ -233,6 +233,21 @@ TEST(Exr, RefusesAbsurdClaimsBeforeAllocating) {
             "deep and multi-part files are not supported");
 }
 
+TEST(Exr, RefusesTablesThatPointNowhere) {
+  const std::string head = header({.channels = channel("R", float_type), .data_window = box(0, 0, 99, 1)});
+  const std::string line = le<std::int32_t>(0) + le<std::int32_t>(400) + std::string(400, '\0');
+  const std::uint64_t first = head.size() + 16, second = first + line.size(), end = second + line.size();
+  const auto refusal = [&](std::uint64_t a, std::uint64_t b) {
+    put(temporary("a.exr"), head + le(a) + le(b) + line + le<std::int32_t>(1) + line.substr(4));
+    return failure_of(temporary("a.exr"));
+  };
+  EXPECT_EQ(refusal(first, second), "");
+  const std::string reason = ": cannot read EXR: the file is not complete: some of its pixels are not in it";
+  EXPECT_EQ(refusal(0, 0), temporary("a.exr") + reason);
+  EXPECT_EQ(refusal(first, 0), temporary("a.exr") + reason);
+  EXPECT_EQ(refusal(first, end), temporary("a.exr") + reason);
+}
+
 TEST(Exr, NamesWhatIsNoExr) {
   put(temporary("a.exr"), "PNG or so, but certainly nothing that begins as an OpenEXR file does");
   EXPECT_EQ(failure_of(temporary("a.exr")), temporary("a.exr") + ": cannot read EXR: not an OpenEXR file");

@@ -171,15 +171,15 @@ std::vector<Case> cases() {
        [](auto& b) {
          b.document["materials"][0]["emissiveFactor"] = {0, -1, 0};
        },
-       "materials[0] \"wood\": emissiveFactor times emissiveStrength must be a number, not negative"},
+       "materials[0] \"wood\": emissiveFactor times emissiveStrength must be a number between 0 and 1e+30"},
       {"OverflowingEmission",
        [](auto& b) {
          b.document["materials"][0]["emissiveFactor"] = {1e20, 1, 1};
          b.document["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 1e20;
        },
-       "materials[0] \"wood\": emissiveFactor times emissiveStrength must be a number, not negative"},
+       "materials[0] \"wood\": emissiveFactor times emissiveStrength must be a number between 0 and 1e+30"},
       {"SmallIor", [](auto& b) { b.document["materials"][0]["extensions"]["KHR_materials_ior"]["ior"] = 0.5; },
-       "materials[0] \"wood\": ior 0.5 is not between 1 and 1000"},
+       "materials[0] \"wood\": ior 0.5 is neither 0 nor between 1 and 1000"},
       {"ThirdTexCoord",
        [](auto& b) { b.document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 2; },
        "materials[0] \"wood\": baseColorTexture: texCoord 2: only 0 and 1 are supported"},
@@ -210,9 +210,20 @@ std::vector<Case> cases() {
        },
        "materials[0] \"wood\": baseColorTexture: textures[0]: images[0] \"oak\": data URI: is 65535x65535, more than "
        "the 134217728 pixels allowed"},
-      {"PictureBeyondMemory", [](auto& b) { b.document["images"][0]["uri"] = png_uri(png(16384, 8192, {})); },
+      {"EmptyPicture", [](auto& b) { b.document["images"][0]["uri"] = png_uri(png(16384, 8192, {})); },
+       "materials[0] \"wood\": baseColorTexture: textures[0]: images[0] \"oak\": data URI: is broken: its header "
+       "claims "
+       "more than the file can hold"},
+      {"PictureBeyondMemory", [](auto& b) { b.document["images"][0]["uri"] = png_uri(png(1 << 27, 1, {}, 4, 16)); },
        "materials[0] \"wood\": baseColorTexture: textures[0]: images[0] \"oak\": data URI: image: does not fit in "
-       "memory: needs 1024.0 MiB, "},
+       "memory: needs 2560."},
+      {"JpegBeyondMemory",
+       [](auto& b) {
+         b.document["images"][0]["uri"] =
+             png_uri({0xff, 0xd8, 0xff, 0xe0, 0, 4, 1, 2, 0xff, 0xc0, 0, 11, 8, 0x20, 0, 0x40, 0, 1, 1, 0x11, 0});
+       },
+       "materials[0] \"wood\": baseColorTexture: textures[0]: images[0] \"oak\": data URI: image: does not fit in "
+       "memory: needs 2048.0 MiB, "},
       {"NoImage", [](auto& b) { b.document["textures"][0].erase("source"); },
        "materials[0] \"wood\": baseColorTexture: textures[0]: has no PNG or JPEG source"},
       {"WrapMode", [](auto& b) { b.document["samplers"][0]["wrapS"] = 1; },
@@ -233,11 +244,17 @@ std::vector<Case> cases() {
        "cameras[0] \"eye\": its node's transform does not leave it a direction"},
       {"Cones",
        [](auto& b) { b.document["extensions"]["KHR_lights_punctual"]["lights"][0]["spot"]["innerConeAngle"] = 1; },
-       "lights[0] \"lamp\": spot: 0 <= innerConeAngle < outerConeAngle <= pi/2 must hold"},
+       "lights[0] \"lamp\": spot: 0 <= innerConeAngle <= outerConeAngle <= pi/2 and outerConeAngle > 0 must hold"},
+      {"NoCone",
+       [](auto& b) { b.document["extensions"]["KHR_lights_punctual"]["lights"][0]["spot"]["outerConeAngle"] = 0; },
+       "lights[0] \"lamp\": spot: 0 <= innerConeAngle <= outerConeAngle <= pi/2 and outerConeAngle > 0 must hold"},
       {"LightType", [](auto& b) { b.document["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = "area"; },
        "lights[0] \"lamp\": type 'area' is not point, spot or directional"},
       {"NegativeLight", [](auto& b) { b.document["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = -1; },
-       "lights[0] \"lamp\": color times intensity must be a number, not negative"},
+       "lights[0] \"lamp\": color times intensity must be a number between 0 and 1e+30"},
+      {"BlindingLight",
+       [](auto& b) { b.document["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 2e30; },
+       "lights[0] \"lamp\": color times intensity must be a number between 0 and 1e+30"},
       {"NewlineInName",
        [](auto& b) {
          b.document["materials"][0] = {{"name", "a\nb"}, {"alphaMode", "x"}};

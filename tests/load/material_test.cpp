@@ -1,28 +1,10 @@
-#include <tiny_gltf.h>
-
 #include <cmath>
 
-#include "load/gltf_builder.h"
-#include "load/pictures.h"
+#include "isophote/scene/surface.h"
+#include "load/material_builder.h"
 
 namespace isophote::testing {
 namespace {
-
-/// A triangle with both texture coordinates, its material, and one image that textures 0 and 1 show.
-struct MaterialBuilder : GltfBuilder {
-  MaterialBuilder() {
-    json& primitive = triangle();
-    for (const char* set : {"TEXCOORD_0", "TEXCOORD_1"})
-      primitive["attributes"][set] = accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", float_type, 2);
-    primitive["material"] = 0;
-    document["materials"] = {{{"name", "paint"}}};
-    document["images"] = {{{"name", "picture"}, {"uri", png_uri(two_pixels())}}};
-    document["textures"] = {{{"source", 0}}, {{"source", 0}, {"sampler", 0}}};
-    document["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
-  }
-  json& material() { return document["materials"][0]; }
-  json& extension(const char* name) { return material()["extensions"][name]; }
-};
 
 Material only_material(const GltfBuilder& builder) { return load(builder).materials.at(0); }
 
@@ -81,6 +63,35 @@ TEST(GltfMaterial, FactorsAndExtensions) {
   EXPECT_TRUE(m.solid);
   EXPECT_EQ(m.attenuation_color, Rgb(0.5f, 0.6f, 0.7f));
   EXPECT_EQ(m.attenuation_distance, 1e10f);  // an integer of more than 32 bits
+}
+
+// KHR_materials_ior: 0 stands for infinity, so that the Fresnel term is 1 at all angles.
+TEST(GltfMaterial, IorOfZeroReflectsAllAtAllAngles) {
+  MaterialBuilder builder;
+  builder.material()["pbrMetallicRoughness"] = {{"metallicFactor", 0}};
+  builder.extension("KHR_materials_ior") = {{"ior", 0}};
+  builder.extension("KHR_materials_specular") = {{"specularColorFactor", {0.5, 1, 1}}};
+  const auto seen = [&] { return surface_point(load(builder), {{0, 0, 1}, {0, 0, -1}}, {0, 0, 0.3f, 0.3f, 1}).bsdf; };
+  EXPECT_EQ(seen().f0, Rgb(0.5f, 1, 1));
+  EXPECT_EQ(seen().f90, 1);
+  builder.extension("KHR_materials_transmission") = {{"transmissionFactor", 1}};
+  builder.extension("KHR_materials_volume") = {{"thicknessFactor", 1}};
+  builder.material()["pbrMetallicRoughness"]["roughnessFactor"] = 0;
+  for (const float cosine : {1.0f, 0.5f, 0.01f}) {
+    const Rgb albedo = specular_albedo(seen(), cosine);
+    EXPECT_NEAR(albedo.r, 0.5f, 1e-5f) << cosine;
+    EXPECT_NEAR(albedo.g, 1, 1e-5f) << cosine;
+  }
+}
+
+TEST(GltfMaterial, GlassOfAHighIndexReflectsNoNegativeLight) {
+  MaterialBuilder builder;
+  builder.material()["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"roughnessFactor", 0}};
+  builder.extension("KHR_materials_ior") = {{"ior", 1000}};
+  builder.extension("KHR_materials_specular") = {{"specularColorFactor", {0.5, 1, 1}}};
+  builder.extension("KHR_materials_transmission") = {{"transmissionFactor", 1}};
+  const Bsdf bsdf = surface_point(load(builder), {{0, 0, 1}, {0, 0, -1}}, {0, 0, 0.3f, 0.3f, 1}).bsdf;
+  for (const float cosine : {1.0f, 0.1f, 0.01f, 0.001f}) EXPECT_GE(specular_albedo(bsdf, cosine).r, 0) << cosine;
 }
 
 TEST(GltfMaterial, VolumeWithoutThicknessIsASheet) {
@@ -183,60 +194,6 @@ TEST(GltfMaterial, RoughTransmissionWarns) {
   EXPECT_EQ(warnings(0.01, false), std::vector<std::string>{});
   EXPECT_EQ(warnings(0.02, false), rough);
   EXPECT_EQ(warnings(0, true), rough);
-}
-
-TEST(GltfImage, EmbeddedInABufferView) {
-  MaterialBuilder builder;
-  builder.material()["emissiveTexture"] = {{"index", 0}};
-  const std::size_t view = builder.view(two_pixels());
-  builder.document["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
-  const Loaded loaded = try_load(builder.glb());
-  EXPECT_EQ(loaded.error, "");
-  EXPECT_EQ(loaded.scene.textures.at(0).rgba, (Bytes{0, 64, 128, 255, 255, 32, 16, 0}));
-}
-
-TEST(GltfImage, ExternalFilesByPercentEncodedNames) {
-  const TemporaryFolder folder;
-  folder.write("maps/a b%.png", two_pixels());
-  MaterialBuilder builder;
-  builder.material()["emissiveTexture"] = {{"index", 0}};
-  for (const char* uri : {"maps/a%20b%.png", "./maps/../maps/a b%25.png"}) {
-    builder.document["images"] = {{{"uri", uri}}};
-    const Loaded loaded = try_load(builder, folder.path());
-    EXPECT_EQ(loaded.error, "");
-    EXPECT_EQ(loaded.scene.textures.size(), 1u);
-  }
-}
-
-TEST(GltfImage, SixteenBitsAndThreeChannels) {
-  MaterialBuilder builder;
-  builder.material()["emissiveTexture"] = {{"index", 0}};
-  // 0x8080 is 128.0 of 255, 0x00ff is 0.99, 0x7f80 is 127.0.
-  builder.document["images"] = {{{"uri", png_uri(png(1, 1, {0x80, 0x80, 0x00, 0xff, 0x7f, 0x7f}, 3, 16))}}};
-  EXPECT_EQ(load(builder).textures.at(0).rgba, (Bytes{128, 1, 127, 255}));
-}
-
-TEST(GltfImage, Jpeg) {
-  tinygltf::Image grey;
-  grey.width = grey.height = 8, grey.component = 3, grey.bits = 8, grey.pixel_type = ubyte_type;
-  grey.image.assign(8 * 8 * 3, 200);
-  std::string uri;
-  const std::string folder, name = "grey.jpg";
-  ASSERT_TRUE(tinygltf::WriteImageData(&folder, &name, &grey, true, &uri, nullptr));
-  MaterialBuilder builder;
-  builder.material()["emissiveTexture"] = {{"index", 0}};
-  builder.document["images"] = {{{"uri", uri}}};
-  const Texture texture = load(builder).textures.at(0);
-  EXPECT_EQ(texture.width, 8);
-  ASSERT_EQ(texture.rgba.size(), 8u * 8 * 4);
-  EXPECT_NEAR(texture.rgba[0], 200, 2);
-  EXPECT_EQ(texture.rgba[3], 255);
-}
-
-TEST(GltfImage, UnusedImagesAreNotOpened) {
-  MaterialBuilder builder;
-  builder.document["images"].push_back({{"uri", "missing.png"}});
-  EXPECT_EQ(load(builder).textures.size(), 0u);
 }
 
 }  // namespace

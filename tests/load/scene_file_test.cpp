@@ -145,7 +145,10 @@ TEST(SceneFile, BadEnvironments) {
   }
   write_exr(exr, sky(Rgb(1.0f)));
   EXPECT_EQ(load_error(path), "");
-  EXPECT_EQ(load_error(bright), bright + ":4: pixel (0, 0) times the intensity overflows");
+  EXPECT_EQ(load_error(bright), bright + ":4: pixel (0, 0) times the intensity is above 1e+30");
+  write_exr(exr, sky(Rgb(0, 2e30f, 0)));
+  EXPECT_EQ(load_error(path), path + ":4: pixel (2, 1) times the intensity is above 1e+30");
+  EXPECT_EQ(load_error(folder.write("c.toml", start + "intensity = 0.5\n")), "");
   folder.write("sky.exr", std::string("no picture"));
   EXPECT_EQ(load_error(path).substr(0, exr.size() + 2), exr + ": ");
 }

@@ -71,15 +71,16 @@ TEST(GltfLight, EveryKind) {
   builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([
     {"type": "point", "color": [1, 0.5, 0.25], "intensity": 40, "range": 12, "name": "bulb"},
     {"type": "spot", "intensity": 10, "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}},
-    {"type": "directional", "intensity": 3}, {"type": "spot", "spot": {}}])");
-  for (int light = 0; light < 4; ++light)
+    {"type": "directional", "intensity": 3}, {"type": "spot", "spot": {}},
+    {"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}}])");
+  for (int light = 0; light < 5; ++light)
     builder.node({{"name", "holder"},
                   {"translation", {0, 5, 0}},
                   {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
                   {"scale", {3, 3, 3}},
                   {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
   const auto lights = load(builder).lights;
-  ASSERT_EQ(lights.size(), 4u);
+  ASSERT_EQ(lights.size(), 5u);
   EXPECT_EQ(lights[0].kind, PunctualLight::Kind::point);
   EXPECT_EQ(lights[0].name, "bulb");
   EXPECT_EQ(lights[0].intensity, Rgb(40, 20, 10));
@@ -96,6 +97,8 @@ TEST(GltfLight, EveryKind) {
   EXPECT_EQ(lights[2].intensity, Rgb(3.0f));
   EXPECT_EQ(lights[3].inner_cone, 0);
   EXPECT_NEAR(lights[3].outer_cone, pi / 4, 1e-7);
+  EXPECT_EQ(lights[4].inner_cone, 0.5f);  // an edge without falloff
+  EXPECT_EQ(lights[4].outer_cone, 0.5f);
 }
 
 }  // namespace

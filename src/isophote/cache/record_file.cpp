@@ -1,10 +1,13 @@
 #include "isophote/cache/record_file.h"
 
 #include <bit>
-#include <cstring>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 
 #include "isophote/core/atomic_file.h"
 #include "isophote/core/error.h"
@@ -65,38 +68,123 @@ std::size_t record_size() {
   return packer.bytes.size();
 }
 
-std::uint64_t checksum(const char* bytes, std::size_t count) {
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum = mix_bits(sum ^ static_cast<unsigned char>(bytes[i])) + i;
-  return sum;
+/// Of bytes that come piece by piece.
+struct Checksum {
+  std::uint64_t sum = 0, count = 0;
+
+  void add(std::string_view bytes) {
+    for (const char byte : bytes) sum = mix_bits(sum ^ static_cast<unsigned char>(byte)) + count++;
+  }
+};
+
+bool within(float v, float low, float high) { return low <= v && v <= high; }  // false for NaN
+
+/// No semi-axis is longer than the radius: `shape` less the sphere of that radius, and a little for rounding, is
+/// positive definite. It may be much flatter. Lookup finds records by their radius, and takes a root of the form.
+bool shaped(const Footprint& f) {
+  if (!(f.radius > 0 && f.radius <= std::numeric_limits<float>::max())) return false;
+  constexpr double rounding = 1e-3;
+  const double reach = f.radius * (1 + rounding), sphere = 1 / (reach * reach);
+  const double xx = f.shape.xx - sphere, yy = f.shape.yy - sphere, zz = f.shape.zz - sphere;
+  const double xy = f.shape.xy, xz = f.shape.xz, yz = f.shape.yz;
+  const double minor = xx * yy - xy * xy;
+  const double determinant = zz * minor - xx * yz * yz - yy * xz * xz + 2 * xy * xz * yz;
+  return xx > 0 && minor > 0 && determinant > 0 && std::isfinite(determinant);
+}
+
+/// Irradiance that interpolation can add up: bounded wherever the record serves, and nowhere negative at its place.
+bool bounded(const Jet<Rgb>& jet, float radius) {
+  constexpr float most = 1e30f;
+  for (int c = 0; c < 3; ++c) {
+    const auto size = [c](const Gradient<Rgb>& g) {
+      return std::hypot(double{g.x[c]}, double{g.y[c]}, double{g.z[c]});
+    };
+    const bool fits =
+        within(jet.value[c], 0, most) && size(jet.translational) * radius <= most && size(jet.rotational) <= most;
+    if (!fits) return false;
+  }
+  return within(jet.distances.harmonic_mean, 0, infinity);
 }
 
 /// A file that passes the checksum may still have been made by hand.
 bool usable(const Record& r) {
   const Footprint& f = r.footprint;
-  const auto finite = [](const Gradient<Rgb>& g) { return is_finite(g.x) && is_finite(g.y) && is_finite(g.z); };
-  const auto within = [](float v, float low, float high) { return low <= v && v <= high; };  // false for NaN
   constexpr float most = std::numeric_limits<float>::max();
   const bool placed = is_finite(r.position) && std::abs(length(r.normal) - 1) < 1e-3f;
-  // A positive diagonal and finite products: a shape that is not positive definite serves too much, never a NaN.
-  const Vec3 diagonal{f.shape.xx, f.shape.yy, f.shape.zz}, others{f.shape.xy, f.shape.xz, f.shape.yz};
-  const bool shaped = is_finite(diagonal) && is_finite(others) && f.shape.xx > 0 && f.shape.yy > 0 && f.shape.zz > 0;
-  const bool bounded = f.radius > 0 && within(f.radius, 0, most) && within(f.normal_scale, 0, most) &&
-                       within(f.unscaled, 0, most) && within(f.smallest, 0, f.radius) && f.largest >= f.radius;
-  return placed && shaped && bounded && static_cast<int>(f.falloff) <= static_cast<int>(Falloff::tent) &&
-         f.order <= 1 && within(r.gradient_scale, 0, 1) && within(r.jet.distances.harmonic_mean, 0, infinity) &&
-         is_finite(r.jet.value) && finite(r.jet.translational) && finite(r.jet.rotational);
+  const bool sized = within(f.normal_scale, 0, most) && within(f.unscaled, 0, most) &&
+                     within(f.smallest, 0, f.radius) && f.largest >= f.radius;
+  return placed && shaped(f) && sized && static_cast<int>(f.falloff) <= static_cast<int>(Falloff::tent) &&
+         f.order <= 1 && within(r.gradient_scale, 0, 1) && bounded(r.jet, f.radius);
 }
 
-std::string read_all(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw UserError(path + ": cannot be opened");
-  std::string bytes;
-  for (char piece[1 << 16]; in.read(piece, sizeof piece), in.gcount() > 0;)
-    bytes.append(piece, static_cast<std::size_t>(in.gcount()));
-  if (in.bad()) throw UserError(path + ": cannot be read");
-  return bytes;
-}
+constexpr std::size_t head_size = sizeof magic + 4 + 8 + 4;
+
+/// Takes a file apart from its start, so that what it claims is known to be true before it is kept: no more memory is
+/// used than sound records fill.
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : path_(path) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (const auto status = fs::status(path, error); fs::exists(status) && !fs::is_regular_file(status))
+      fail("is not a regular file");
+    size_ = fs::file_size(path, error);
+    in_.open(path, std::ios::binary);
+    if (error || !in_) fail("cannot be opened");
+  }
+
+  RecordFile read() {
+    RecordFile file;
+    const std::uint64_t settings_size = read_head(file);
+    file.settings = take(settings_size);
+    const std::string count_bytes = take(8);
+    const std::uint64_t count = Unpacker{count_bytes.data()}.integer(8), each = record_size();
+    const std::uint64_t left = size_ - head_size - settings_size - 16;
+    if (count != left / each || left % each != 0) fail("is cut off or malformed (its count of records is wrong)");
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::string bytes = take(each);
+      Unpacker unpacker{bytes.data()};
+      transfer(unpacker, file.records.emplace_back());
+      if (!usable(file.records.back())) fail("record " + std::to_string(i) + " is malformed");
+    }
+    const std::uint64_t sum = checksum_.sum;
+    const std::string sum_bytes = take(8);
+    if (Unpacker{sum_bytes.data()}.integer(8) != sum) fail("is harmed (its checksum does not agree)");
+    return file;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const { throw UserError(path_ + ": " + reason); }
+
+  std::string take(std::uint64_t count) {
+    std::string bytes(count, '\0');
+    if (!in_.read(bytes.data(), static_cast<std::streamsize>(count))) fail("cannot be read");
+    checksum_.add(bytes);
+    return bytes;
+  }
+
+  /// Up to the settings, whose size it returns.
+  std::uint64_t read_head(RecordFile& file) {
+    if (size_ < sizeof magic || take(sizeof magic) != std::string_view(magic, sizeof magic))
+      fail("is not a record file");
+    if (size_ < head_size + 16) fail("is cut off");
+    const std::string rest = take(head_size - sizeof magic);
+    Unpacker in{rest.data()};
+    if (const auto found = in.integer(4); found != version)
+      fail("has version " + std::to_string(found) + ", this program reads " + std::to_string(version));
+    file.scene = in.integer(8);
+    const std::uint64_t settings_size = in.integer(4);
+    constexpr std::uint64_t largest = 1 << 20;  // settings are a page
+    if (settings_size > largest || settings_size > size_ - head_size - 16)
+      fail("is cut off or malformed (its settings are too long)");
+    return settings_size;
+  }
+
+  std::string path_;
+  std::ifstream in_;
+  std::uint64_t size_ = 0;
+  Checksum checksum_;
+};
 
 }  // namespace
 
@@ -109,41 +197,15 @@ void write_records(const std::string& path, const RecordFile& file) {
   out.bytes += file.settings;
   out.integer(file.records.size(), 8);
   for (Record record : file.records) transfer(out, record);
-  out.integer(checksum(out.bytes.data(), out.bytes.size()), 8);
+  Checksum checksum;
+  checksum.add(out.bytes);
+  out.integer(checksum.sum, 8);
   AtomicFile result(path);
   result.stream().write(out.bytes.data(), static_cast<std::streamsize>(out.bytes.size()));
   result.commit();
 }
 
-RecordFile read_records(const std::string& path) {
-  const std::string bytes = read_all(path);
-  constexpr std::size_t head = sizeof magic + 4 + 8 + 4;
-  if (bytes.size() < sizeof magic || std::memcmp(bytes.data(), magic, sizeof magic) != 0)
-    throw UserError(path + ": is not a record file");
-  if (bytes.size() < head + 16) throw UserError(path + ": is cut off");
-  Unpacker in{bytes.data() + sizeof magic};
-  if (const auto found = in.integer(4); found != version)
-    throw UserError(path + ": has version " + std::to_string(found) + ", this program reads " +
-                    std::to_string(version));
-  if (Unpacker tail{bytes.data() + bytes.size() - 8}; tail.integer(8) != checksum(bytes.data(), bytes.size() - 8))
-    throw UserError(path + ": is cut off or harmed (its checksum does not agree)");
-
-  RecordFile file;
-  file.scene = in.integer(8);
-  const std::uint64_t text = in.integer(4);
-  if (text > bytes.size() - head - 16) throw UserError(path + ": is malformed (settings longer than the file)");
-  file.settings.assign(in.at, text);
-  in.at += text;
-  const std::uint64_t count = in.integer(8), left = bytes.size() - head - 16 - text, each = record_size();
-  if (count != left / each || left % each != 0)
-    throw UserError(path + ": is malformed (its count of records is wrong)");
-  file.records.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    transfer(in, file.records[i]);
-    if (!usable(file.records[i])) throw UserError(path + ": record " + std::to_string(i) + " is malformed");
-  }
-  return file;
-}
+RecordFile read_records(const std::string& path) { return Reader(path).read(); }
 
 void require_match(const std::string& path, const RecordFile& file, std::uint64_t scene, const std::string& settings) {
   if (file.scene != scene) throw UserError(path + ": its records were made for another scene");

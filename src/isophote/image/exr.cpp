@@ -44,7 +44,18 @@ Imf::Slice slice(const ExrFile::Channel& channel, const Imath::Box2i& window) {
   return Imf::Slice::Make(Imf::FLOAT, channel.values.data(), window);
 }
 
-ExrFile read_pixels(Imf::InputFile& input) {
+/// The same, which must be there.
+std::vector<const ExrFile::Channel*> require_triple(const ExrFile& file, const std::string& layer) {
+  const auto triple = find_triple(file, layer);
+  if (!triple.empty()) return triple;
+  std::string known;
+  for (const std::string& name : file.layers()) known += (known.empty() ? "" : ", ") + (name.empty() ? "R,G,B" : name);
+  throw UserError((layer.empty() ? "no channels R,G,B" : "no layer '" + layer + "'") + std::string("; there is: ") +
+                  (known.empty() ? "no layer of three channels" : known));
+}
+
+/// What is in the file, without its values.
+ExrFile read_names(const Imf::InputFile& input) {
   const Imath::Box2i window = input.header().dataWindow();
   ExrFile file;
   file.width = window.max.x - window.min.x + 1;
@@ -55,17 +66,53 @@ ExrFile read_pixels(Imf::InputFile& input) {
       throw UserError(std::string("channel '") + c.name() + "' is subsampled, which is not supported");
     file.channels.push_back({c.name(), {}});
   }
-  Imf::FrameBuffer buffer;
-  for (ExrFile::Channel& channel : file.channels) {
-    channel.values.resize(static_cast<std::size_t>(file.width) * file.height);
-    buffer.insert(channel.name, slice(channel, window));
-  }
-  input.setFrameBuffer(buffer);
-  input.readPixels(window.min.y, window.max.y);
   return file;
 }
 
+void read_pixels(Imf::InputFile& input, const Imf::FrameBuffer& buffer) {
+  const Imath::Box2i window = input.header().dataWindow();
+  input.setFrameBuffer(buffer);
+  input.readPixels(window.min.y, window.max.y);
+}
+
+/// What a reader may allocate, and what it is about to.
+struct Allowance {
+  std::uint64_t memory, needed = 0;
+
+  void take(std::uint64_t bytes) {
+    needed += bytes;
+    constexpr std::uint64_t mebi = 1 << 20;
+    if (needed > memory)
+      throw UserError("it does not fit in memory: needs " + std::to_string((needed + mebi - 1) / mebi) +
+                      " MiB, there are " + std::to_string(memory / mebi));
+  }
+};
+
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// Calls body(input, names, pixels, allowance) for an open file whose header has been checked.
+template <class Body>
+auto read_with(const std::string& path, std::uint64_t memory, const Body& body) {
+  std::error_code failure;
+  const std::uintmax_t size = std::filesystem::file_size(path, failure);
+  if (failure) throw UserError(path + ": cannot read: " + failure.message());
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw UserError(path + ": cannot read: cannot be opened");
+  try {
+    const ExrClaim claim = check_exr_header(stream, size);
+    Allowance allowance{memory};
+    allowance.take(claim.buffers);
+    stream.clear();
+    stream.seekg(0);
+    Imf::StdIFStream exr_stream(stream, path.c_str());
+    Imf::InputFile input(exr_stream, this_thread_only);
+    return body(input, read_names(input), claim.pixels, allowance);
+  } catch (const std::bad_alloc&) {
+    throw UserError(path + ": cannot read EXR: it does not fit in memory");
+  } catch (const std::exception& error) {
+    throw UserError(path + ": cannot read EXR: " + first_line(error.what()));
+  }
+}
 
 }  // namespace
 
@@ -90,13 +137,7 @@ void ExrFile::add_rgb(const std::string& layer, const RgbImage& image, const cha
 }
 
 RgbImage ExrFile::rgb(const std::string& layer) const {
-  const auto triple = find_triple(*this, layer);
-  if (triple.empty()) {
-    std::string known;
-    for (const std::string& name : layers()) known += (known.empty() ? "" : ", ") + (name.empty() ? "R,G,B" : name);
-    throw UserError((layer.empty() ? "no channels R,G,B" : "no layer '" + layer + "'") + std::string("; there is: ") +
-                    (known.empty() ? "no layer of three channels" : known));
-  }
+  const auto triple = require_triple(*this, layer);
   RgbImage image(width, height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = {triple[0]->values[i], triple[1]->values[i], triple[2]->values[i]};
@@ -115,24 +156,31 @@ std::vector<std::string> ExrFile::layers() const {
   return names;
 }
 
-ExrFile read_exr(const std::string& path) {
-  std::error_code failure;
-  const std::uintmax_t size = std::filesystem::file_size(path, failure);
-  if (failure) throw UserError(path + ": cannot read: " + failure.message());
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw UserError(path + ": cannot read: cannot be opened");
-  try {
-    check_exr_header(stream, size);
-    stream.clear();
-    stream.seekg(0);
-    Imf::StdIFStream exr_stream(stream, path.c_str());
-    Imf::InputFile input(exr_stream, this_thread_only);
-    return read_pixels(input);
-  } catch (const std::bad_alloc&) {
-    throw UserError(path + ": cannot read EXR: it does not fit in memory");
-  } catch (const std::exception& error) {
-    throw UserError(path + ": cannot read EXR: " + first_line(error.what()));
-  }
+ExrFile read_exr(const std::string& path, std::uint64_t memory) {
+  return read_with(path, memory, [](Imf::InputFile& input, ExrFile file, std::uint64_t pixels, Allowance allowance) {
+    allowance.take(pixels * file.channels.size() * sizeof(float));
+    Imf::FrameBuffer buffer;
+    for (ExrFile::Channel& channel : file.channels) {
+      channel.values.resize(pixels);
+      buffer.insert(channel.name, slice(channel, input.header().dataWindow()));
+    }
+    read_pixels(input, buffer);
+    return file;
+  });
+}
+
+RgbImage read_exr_layer(const std::string& path, const std::string& layer, std::uint64_t memory) {
+  return read_with(path, memory, [&](Imf::InputFile& input, const ExrFile& file, std::uint64_t pixels, Allowance left) {
+    const auto triple = require_triple(file, layer);
+    left.take(pixels * sizeof(Rgb));
+    RgbImage image(file.width, file.height);
+    float* const first[] = {&image.pixels[0].r, &image.pixels[0].g, &image.pixels[0].b};
+    Imf::FrameBuffer buffer;
+    for (std::size_t i = 0; i < 3; ++i)
+      buffer.insert(triple[i]->name, Imf::Slice::Make(Imf::FLOAT, first[i], input.header().dataWindow(), sizeof(Rgb)));
+    read_pixels(input, buffer);
+    return image;
+  });
 }
 
 void write_exr(const std::string& path, const ExrFile& file) {

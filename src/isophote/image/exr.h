@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "isophote/image/image.h"
+#include "isophote/image/physical_memory.h"
 
 namespace isophote {
 
@@ -27,8 +29,12 @@ struct ExrFile {
 };
 
 /// Reads any scan-line or tiled single-part EXR (half and float channels). Throws UserError `PATH: reason`, also for
-/// sizes above 2^28 pixels, which are refused before anything is allocated.
-ExrFile read_exr(const std::string& path);
+/// sizes above 2^28 pixels and for what takes more than `memory` bytes, which are refused before anything is allocated.
+ExrFile read_exr(const std::string& path, std::uint64_t memory = physical_memory());
+
+/// The colours of one layer, the only channels that are read and kept. Throws UserError as `read_exr` and ExrFile::rgb
+/// do.
+RgbImage read_exr_layer(const std::string& path, const std::string& layer, std::uint64_t memory = physical_memory());
 
 /// Writes under a temporary name in the same folder and renames, so that nothing half-written ever has the final name.
 /// Identical contents give identical bytes. Throws UserError.

@@ -35,6 +35,10 @@ struct Reader {
     if (!file) refuse("the header is cut off");
     return text;
   }
+  std::uint64_t offset() {
+    const std::uint64_t low = word();
+    return low | static_cast<std::uint64_t>(word()) << 32;
+  }
   void skip(std::uint64_t bytes) { file.seekg(static_cast<std::streamoff>(bytes), std::ios::cur); }
 };
 
@@ -98,26 +102,36 @@ std::uint64_t most_values_per_byte(Imf::Compression compression) {
   return dwa ? 1032 * 64 : 1032;
 }
 
+Imf::Header read_header(std::istream& file, int version) {
+  struct Stream : Imf::IStream {
+    std::istream& in;
+    explicit Stream(std::istream& in_) : IStream("header"), in(in_) {}
+    bool read(char c[], int n) override {
+      if (!in.read(c, n)) refuse("the header is cut off");
+      return true;
+    }
+    std::uint64_t tellg() override { return static_cast<std::uint64_t>(in.tellg()); }
+    void seekg(std::uint64_t pos) override { in.seekg(static_cast<std::streamoff>(pos)); }
+  } stream(file);
+  Imf::Header header;
+  header.readFrom(stream, version);
+  header.sanityCheck(version & tiled_flag);
+  return header;
+}
+
+/// A table that was never filled in (the writer did not finish) or that points elsewhere.
+void check_offsets(Reader in, std::uint64_t chunks) {
+  for (std::uint64_t i = 0; i < chunks; ++i)
+    if (const std::uint64_t at = in.offset(); at == 0 || at >= in.size)
+      refuse("the file is not complete: some of its pixels are not in it");
+}
+
 }  // namespace
 
-void check_exr_header(std::istream& file, std::uint64_t size) {
-  int version = check_attributes(file, size);
-  Imf::Header header;
-  {
-    struct Stream : Imf::IStream {
-      std::istream& in;
-      explicit Stream(std::istream& in_) : IStream("header"), in(in_) {}
-      bool read(char c[], int n) override {
-        if (!in.read(c, n)) refuse("the header is cut off");
-        return true;
-      }
-      std::uint64_t tellg() override { return static_cast<std::uint64_t>(in.tellg()); }
-      void seekg(std::uint64_t pos) override { in.seekg(static_cast<std::streamoff>(pos)); }
-    } stream(file);
-    header.readFrom(stream, version);
-  }
+ExrClaim check_exr_header(std::istream& file, std::uint64_t size) {
+  const int version = check_attributes(file, size);
   const bool tiled = version & tiled_flag;
-  header.sanityCheck(tiled);
+  const Imf::Header header = read_header(file, version);
 
   const Imath::Box2i& window = header.dataWindow();
   const auto width = static_cast<std::uint64_t>(static_cast<std::int64_t>(window.max.x) - window.min.x + 1);
@@ -125,22 +139,27 @@ void check_exr_header(std::istream& file, std::uint64_t size) {
   const std::string claim = std::to_string(width) + "x" + std::to_string(height) + " pixels";
   if (width > max_pixels || height > max_pixels || width * height > max_pixels) refuse(claim + " are too many");
 
-  std::uint64_t chunks = 0, values = 0;
+  std::uint64_t chunks = 0, chunk = 0, row = 0;  // values of a channel in a chunk, and in a row of chunks
   if (tiled) {
     const Imf::TileDescription& tile = header.tileDescription();
     if (tile.xSize > max_pixels || tile.ySize > max_pixels || std::uint64_t{tile.xSize} * tile.ySize > max_pixels)
       refuse("the tiles are too large");
     chunks = ((width + tile.xSize - 1) / tile.xSize) * ((height + tile.ySize - 1) / tile.ySize);
-    values = std::max<std::uint64_t>(width * height, std::uint64_t{tile.xSize} * tile.ySize);
+    chunk = std::uint64_t{tile.xSize} * tile.ySize;
+    row = width * tile.ySize;
   } else {
     const std::uint64_t lines = lines_per_chunk(header.compression());
     chunks = (height + lines - 1) / lines;
-    values = width * std::max(height, lines);
+    chunk = width * lines;
   }
   std::uint64_t channels = 0;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
+  const std::uint64_t values = std::max(width * height, chunk);
   if (chunks * 8 > size || values * channels / most_values_per_byte(header.compression()) > size)
     refuse("the header claims " + claim + " in " + std::to_string(channels) + " channels, more than the file can hold");
+  check_offsets(Reader{file, size}, chunks);
+  // A chunk packed, unpacked and in between; a row of tiles is kept.
+  return {width * height, (3 * chunk + row) * channels * sizeof(float)};
 }
 
 }  // namespace isophote

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <optional>
 
+#include "isophote/image/png_decode.h"
 #include "isophote/load/gltf_resources.h"
 #include "isophote/load/messages.h"
 
@@ -22,13 +21,6 @@ std::uint32_t big_endian(Bytes bytes, std::size_t at, int count) {
   std::uint32_t value = 0;
   for (int i = 0; i < count; ++i) value = value << 8 | bytes[at + static_cast<std::size_t>(i)];
   return value;
-}
-
-std::optional<ImageSize> png_size(Bytes bytes) {
-  constexpr std::array<unsigned char, 16> start{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n',
-                                                0,    0,   0,   13,  'I',  'H',  'D',  'R'};
-  if (bytes.size() < 33 || !std::equal(start.begin(), start.end(), bytes.begin())) return {};
-  return ImageSize{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
 }
 
 /// Walks the segments up to the frame header, which has the size.
@@ -49,36 +41,44 @@ std::optional<ImageSize> jpeg_size(Bytes bytes) {
   return {};
 }
 
-void check_size(Bytes bytes, MemoryBudget& budget) {
-  auto size = png_size(bytes);
-  if (!size) size = jpeg_size(bytes);
-  if (!size) throw UserError("is neither a PNG nor a JPEG");
-  const std::uint64_t pixels = std::uint64_t{size->width} * size->height;
-  if (pixels == 0) throw UserError("has no pixels");
-  if (pixels > max_image_pixels)
-    throw UserError(
-        fmt::format("is {}x{}, more than the {} pixels allowed", size->width, size->height, max_image_pixels));
-  budget.take(8 * pixels, "image");
+void check_size(std::uint64_t width, std::uint64_t height) {
+  if (width * height == 0) throw UserError("has no pixels");
+  if (width * height > max_image_pixels)
+    throw UserError(fmt::format("is {}x{}, more than the {} pixels allowed", width, height, max_image_pixels));
 }
 
-DecodedImage decode(Bytes bytes, MemoryBudget& budget) {
-  check_size(bytes, budget);
+/// Calls `body` with `scratch` bytes taken beside the result's own.
+template <class Body>
+DecodedImage within(MemoryBudget& budget, std::uint64_t pixels, std::uint64_t scratch, const Body& body) {
+  budget.take(4 * pixels + scratch, "image");
+  DecodedImage image = body();
+  budget.give_back(scratch);
+  return image;
+}
+
+DecodedImage decode_jpeg(Bytes bytes) {
   if (bytes.size() > 0x7fffffff) throw UserError("is over 2 GiB");
   tinygltf::Image decoded;
   std::string error, warning;
   if (!tinygltf::LoadImageData(&decoded, 0, &error, &warning, 0, 0, bytes.data(), static_cast<int>(bytes.size()),
                                nullptr))
     throw UserError("is broken: it cannot be decoded");
-  DecodedImage image{decoded.width, decoded.height, std::move(decoded.image)};
-  if (decoded.bits == 16) {
-    const std::size_t values = image.rgba.size() / 2;
-    for (std::size_t i = 0; i < values; ++i) {
-      const unsigned value = image.rgba[2 * i] | static_cast<unsigned>(image.rgba[2 * i + 1]) << 8;
-      image.rgba[i] = static_cast<std::uint8_t>((value * 255 + 32767) / 65535);
-    }
-    image.rgba.resize(values);
+  return {decoded.width, decoded.height, std::move(decoded.image)};
+}
+
+DecodedImage decode(Bytes bytes, MemoryBudget& budget) {
+  if (const auto png = read_png_header(bytes)) {
+    check_size(png->width, png->height);
+    return within(budget, png->pixels(), png->scratch(), [&] {
+      return DecodedImage{static_cast<int>(png->width), static_cast<int>(png->height), decode_png(bytes)};
+    });
   }
-  return image;
+  const auto jpeg = jpeg_size(bytes);
+  if (!jpeg) throw UserError("is neither a PNG nor a JPEG");
+  check_size(jpeg->width, jpeg->height);
+  const std::uint64_t pixels = std::uint64_t{jpeg->width} * jpeg->height;
+  // A progressive one of four channels: 2 bytes a coefficient and 1 a sample, and the result.
+  return within(budget, pixels, 12 * pixels, [&] { return decode_jpeg(bytes); });
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ struct DecodedImage {
   std::vector<std::uint8_t> rgba;
 };
 
-/// Decodes a PNG or JPEG, 16-bit PNG cut to 8 bits. Its size is read from its header and checked before. Throws
-/// UserError `images[I] "NAME": reason`.
+/// Decodes a PNG or JPEG, 16-bit PNG cut to 8 bits. Its size is read from its header and checked before, and what
+/// decoding takes besides the picture is given back to the budget. Throws UserError `images[I] "NAME": reason`.
 DecodedImage decode_image(const GltfFile& file, int image, MemoryBudget& budget);
 
 }  // namespace isophote

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "isophote/load/largest_radiance.h"
 #include "isophote/load/messages.h"
 
 namespace isophote {
@@ -89,7 +90,8 @@ class MaterialReader {
     if (const Value* e = find(source_.extensions, "KHR_materials_ior")) {
       constexpr double largest = 1000;
       const double ior = number(*e, "ior", 1.5);
-      if (!(ior >= 1 && ior <= largest)) throw UserError(fmt::format("ior {} is not between 1 and {}", ior, largest));
+      if (!(ior == 0 || (ior >= 1 && ior <= largest)))
+        throw UserError(fmt::format("ior {} is neither 0 nor between 1 and {}", ior, largest));
       m_.ior = static_cast<float>(ior);
     }
   }
@@ -119,8 +121,9 @@ class MaterialReader {
 
   static Rgb non_negative(const char* key, const Rgbd& value) {
     const Rgb rounded(value);
-    if (!is_finite(rounded) || std::min({rounded.r, rounded.g, rounded.b}) < 0)
-      throw UserError(fmt::format("{} must be a number, not negative", key));
+    if (!is_finite(rounded) || std::min({rounded.r, rounded.g, rounded.b}) < 0 ||
+        max_component(rounded) > largest_radiance)
+      throw UserError(fmt::format("{} must be a number between 0 and {:g}", key, largest_radiance));
     return rounded;
   }
 

@@ -1,7 +1,10 @@
 #include "isophote/load/gltf_views.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "isophote/load/largest_radiance.h"
 #include "isophote/load/messages.h"
 
 namespace isophote {
@@ -40,8 +43,9 @@ Camera perspective_camera(const tinygltf::Camera& source, const Affine& to_world
 void read_cones(const tinygltf::SpotLight& spot, PunctualLight& light) {
   constexpr double right_angle = 1.5707964;  // pi/2 as writers round it
   const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
-  if (!(inner >= 0 && inner < outer && outer <= right_angle))
-    throw UserError("spot: 0 <= innerConeAngle < outerConeAngle <= pi/2 must hold");
+  // The format wants the inner angle below the outer one; writers make them equal for an edge without falloff.
+  if (!(inner >= 0 && inner <= outer && outer > 0 && outer <= right_angle))
+    throw UserError("spot: 0 <= innerConeAngle <= outerConeAngle <= pi/2 and outerConeAngle > 0 must hold");
   light.inner_cone = static_cast<float>(inner);
   light.outer_cone = static_cast<float>(outer);
 }
@@ -62,8 +66,9 @@ PunctualLight punctual_light(const tinygltf::Light& source, const Affine& to_wor
   Rgbd color{1.0};
   if (source.color.size() == 3) color = {source.color[0], source.color[1], source.color[2]};
   light.intensity = Rgb(color * source.intensity);
-  if (!is_finite(light.intensity) || std::min({light.intensity.r, light.intensity.g, light.intensity.b}) < 0)
-    throw UserError("color times intensity must be a number, not negative");
+  if (!is_finite(light.intensity) || std::min({light.intensity.r, light.intensity.g, light.intensity.b}) < 0 ||
+      max_component(light.intensity) > largest_radiance)
+    throw UserError(fmt::format("color times intensity must be a number between 0 and {:g}", largest_radiance));
   if (source.range < 0) throw UserError("range must be positive");
   if (source.range > 0) light.range = static_cast<float>(source.range);
   return light;

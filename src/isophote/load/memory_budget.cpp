@@ -1,17 +1,10 @@
 #include "isophote/load/memory_budget.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "isophote/core/error.h"
 
 namespace isophote {
-
-std::uint64_t physical_memory() {
-  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-  constexpr std::uint64_t fallback = 4ull << 30;  // where the system does not say
-  return pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) : fallback;
-}
 
 void MemoryBudget::take(std::uint64_t bytes, const std::string& what) {
   if (bytes > left_) {

@@ -3,10 +3,9 @@
 #include <cstdint>
 #include <string>
 
-namespace isophote {
+#include "isophote/image/physical_memory.h"
 
-/// The machine's memory, in bytes.
-std::uint64_t physical_memory();
+namespace isophote {
 
 /// What one load may allocate. Everything whose size a file decides is taken from it before it is allocated.
 class MemoryBudget {
@@ -15,6 +14,8 @@ class MemoryBudget {
 
   /// Throws UserError `WHAT: does not fit in memory: ...` where less than `bytes` is left.
   void take(std::uint64_t bytes, const std::string& what);
+  /// Returns what was taken and has been freed.
+  void give_back(std::uint64_t bytes) { left_ += bytes; }
 
  private:
   std::uint64_t total_, left_;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "isophote/image/exr.h"
+#include "isophote/load/largest_radiance.h"
 #include "isophote/load/messages.h"
 #include "isophote/load/read_file.h"
 #include "isophote/load/scene_toml.h"
@@ -39,9 +40,8 @@ std::string resolve(const SceneToml::File& file, const fs::path& folder) {
 
 EnvironmentMap read_environment(const SceneToml::Environment& source, const fs::path& folder) {
   const std::string path = resolve(source.file, folder);
-  const ExrFile file = read_exr(path);
   EnvironmentMap map;
-  map.radiance = with_place(path, [&] { return file.rgb(""); });
+  map.radiance = read_exr_layer(path, "");
   map.rotation = static_cast<float>(std::remainder(source.rotation, 360.0) * (pi / 180.0));
   for (std::size_t i = 0; i < map.radiance.pixels.size(); ++i) {
     Rgb& pixel = map.radiance.pixels[i];
@@ -50,9 +50,9 @@ EnvironmentMap read_environment(const SceneToml::Environment& source, const fs::
     if (!valid)
       throw UserError(fmt::format("{}: pixel ({}, {}) is negative or not a number", path, i % width, i / width));
     pixel = Rgb(Rgbd(pixel) * source.intensity);
-    if (!is_finite(pixel))
-      throw UserError(
-          fmt::format("{}: pixel ({}, {}) times the intensity overflows", source.file.place, i % width, i / width));
+    if (!(max_component(pixel) <= largest_radiance))
+      throw UserError(fmt::format("{}: pixel ({}, {}) times the intensity is above {:g}", source.file.place, i % width,
+                                  i / width, largest_radiance));
   }
   return map;
 }
@@ -60,7 +60,7 @@ EnvironmentMap read_environment(const SceneToml::Environment& source, const fs::
 }  // namespace
 
 LoadedScene load_scene(const std::string& path, const Warn& warn) {
-  if (is_gltf(path)) return {load_gltf(path, warn), {}};
+  if (is_gltf(path)) return {load_gltf(path, warn), {}, {}};
   if (lower_suffix(path) != ".toml") throw UserError(path + ": is not a scene: a .glb, .gltf or .toml file is needed");
 
   constexpr std::uint64_t largest = 1 << 20;  // bytes; settings are a page
@@ -73,8 +73,12 @@ LoadedScene load_scene(const std::string& path, const Warn& warn) {
   const fs::path folder = fs::path(path).parent_path();
   if (!is_gltf(toml.scene.path)) throw UserError(toml.scene.place + ": [scene] file must be a .glb or .gltf file");
 
-  LoadedScene loaded{load_gltf(resolve(toml.scene, folder), warn), toml.settings};
-  if (toml.environment) loaded.scene.environment = read_environment(*toml.environment, folder);
+  const std::string gltf = resolve(toml.scene, folder);
+  LoadedScene loaded{load_gltf(gltf, warn), toml.settings, {gltf}};
+  if (toml.environment) {
+    loaded.scene.environment = read_environment(*toml.environment, folder);
+    loaded.files.push_back(resolve(toml.environment->file, folder));
+  }
   return loaded;
 }
 

@@ -29,7 +29,7 @@ struct Material {
   float specular = 1;  ///< KHR_materials_specular
   Rgb specular_color{1.0f};
   TextureUse specular_texture, specular_color_texture;  ///< alpha of the one, colour of the other
-  float ior = 1.5f;                                     ///< KHR_materials_ior
+  float ior = 1.5f;                                     ///< KHR_materials_ior; 0: the Fresnel term is 1 at all angles
   float transmission = 0;                               ///< KHR_materials_transmission, smooth
   TextureUse transmission_texture;
   bool solid = false;           ///< KHR_materials_volume with thickness > 0: refracts; else a thin sheet

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "isophote/image/srgb.h"
+
 namespace isophote {
 namespace {
 
 std::array<float, 256> srgb_table() {
   std::array<float, 256> table;
-  for (int i = 0; i < 256; ++i) {
-    const double v = i / 255.0;
-    table[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-  }
+  for (int i = 0; i < 256; ++i) table[i] = srgb_decode(static_cast<float>(i) / 255);
   return table;
 }
 std::array<float, 256> linear_table() {
