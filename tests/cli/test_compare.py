@@ -1,6 +1,6 @@
 import json
 
-from program import BOX, ProgramTest, png_size, quick
+from program import BOX, ProgramTest, picture_channels, png_size, quick
 
 
 class Compare(ProgramTest):
@@ -35,6 +35,23 @@ class Compare(ProgramTest):
     def test_the_error_picture(self):
         self.done("compare", "1.exr", "2.exr", "--layer", "irradiance", "--error-picture", "error.png")
         self.assertEqual(png_size(self.folder / "error.png"), (32, 32))
+
+    def test_layers_of_one_channel_are_grey(self):
+        (one, _), (two, _) = (picture_channels(self.folder / name) for name in ("1.exr", "2.exr"))
+        for layer, name in (("depth", "depth.Z"), ("depth.Z", "depth.Z"), ("albedo.G", "albedo.G"), ("A", "A")):
+            squares = [(a - b) ** 2 for a, b in zip(one[name], two[name])]
+            rmse = (sum(squares) / len(squares)) ** 0.5
+            self.assertAlmostEqual(self.measured("1.exr", "2.exr", "--layer", layer)["rmse"], rmse, delta=1e-5 * (rmse + 1e-3))
+
+    def test_the_error_picture_replaces_nothing_that_is_read(self):
+        before = {name: (self.folder / name).read_bytes() for name in self.names()}
+        for name in ("2.exr", "e.jpg", "e"):
+            self.refused(2, ("compare", "1.exr", "2.exr", "--error-picture", name), f"--error-picture {name}", ".png")
+        self.assertEqual({name: (self.folder / name).read_bytes() for name in self.names()}, before)
+        (self.folder / "2.exr").rename(self.folder / "2.png")
+        for arguments in (("1.exr", "2.png"), ("2.png", "1.exr"), ("1.exr", "1.exr", "--second", "2.png")):
+            self.refused(2, ("compare", *arguments, "--error-picture", "./2.png"), "would overwrite")
+        self.assertEqual((self.folder / "2.png").read_bytes(), before["2.exr"])
 
     def test_what_cannot_be_compared(self):
         self.refused(1, ("compare", "1.exr", "missing.exr"), "missing.exr")

@@ -12,13 +12,17 @@ class BadUsage(ProgramTest):
 
     def test_verbs_and_flags(self):
         self.refused(2, (), "render, compare, methods")
-        self.refused(2, ("rendr",), "rendr")
+        for arguments in (("rendr",), ("rendr", "x"), ("rendr", "--help"), ("",)):
+            self.refused(2, arguments, f"unknown command '{arguments[0]}'; there are: render, compare, methods\n")
+        self.refused(2, ("--nonsense",), "--nonsense", "(see isophote --help)")
+        self.refused(2, ("render", "x", "--nonsense"), "--nonsense", "(see isophote render --help)")
+        self.refused(2, ("compare", "a.exr"), "(see isophote compare --help)")
         self.refused(2, ("render",))
         self.refused(2, ("render", BOX))
-        self.refused(2, ("compare", "a.exr"))
         self.refused(2, ("methods", "extra"))
         self.refused_render(("--nonsense", "1"), "--nonsense")
         self.refused_render(("--spp",), "--spp")
+        self.refused(2, ("render", BOX, "-o", "a.png", "b.png"), "b.png")
 
     def test_unknown_names_are_answered_with_the_known_ones(self):
         self.refused_render(("--method", "ward2000"), "ward2000", *METHODS)
@@ -35,6 +39,11 @@ class BadUsage(ProgramTest):
         self.refused_render(("--secondary", "on", "--max-depth", "3"), "--max-depth")
         self.refused_render(("--records", "100", "--order", "lazy"), "--records")
         self.refused_render(("--records", "100", "--load-cache", "c"), "--records")
+        for flags in (("--error", "0.1", "--a", "0.3"), ("--a", "0.3", "--records", "9"), ("--records", "9", "--error", "0.1")):
+            self.refused(2, ("render", BOX, *flags, "-o", "out.exr"), flags[0], flags[2], "give one")
+        self.refused_render(("--min-pixels", "9", "--max-pixels", "8"), "--min-pixels 9", "--max-pixels 8")
+        self.refused_render(("--method", "bounded", "--min-pixels", "30"), "--min-pixels 30", "--max-pixels 20")
+        self.refused_render(("--min-radius", "2", "--max-radius", "1"), "--min-radius 2", "--max-radius 1")
 
     def test_values(self):
         for flag, values in {
@@ -127,6 +136,46 @@ class BadInput(ProgramTest):
         self.write("cut.glb", Path(BOX).read_bytes()[:1000])
         self.refused_scene("cut.glb", "cut.glb")
         self.assertEqual((self.folder / "out.exr").read_bytes(), b"older")
+
+
+class OneFileForTwo(ProgramTest):
+    """An output never replaces what is read, nor another output."""
+
+    def setUp(self):
+        super().setUp()
+        self.glb = self.write("mine.glb", Path(BOX).read_bytes())
+        self.toml = self.write("mine.toml", "[scene]\nfile = 'mine.glb'\n")
+
+    def refused(self, code, arguments, *mentions):
+        before = {path: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
+        super().refused(code, arguments, *mentions)
+        self.assertEqual({path: path.read_bytes() for path in before}, before)
+
+    def test_inputs_of_render(self):
+        (self.folder / "link").symlink_to("mine.glb")
+        (self.folder / "sub").mkdir()
+        for name in ("mine.glb", "./mine.glb", "sub/../mine.glb", str(self.glb), "link"):
+            for flag in ("--stats", "--save-cache"):
+                with self.subTest(name=name, flag=flag):
+                    self.refused(2, ("render", "mine.glb", *quick(flag, name, "-o", "a.png")), f"{flag} {name}", "the scene")
+                    self.refused(2, ("render", "mine.toml", *quick(flag, name, "-o", "a.png")), f"{flag} {name}", "mine.glb")
+        self.refused(2, ("render", "mine.toml", *quick("--stats", "mine.toml")), "--stats mine.toml", "the scene")
+
+    def test_an_environment_is_kept(self):
+        self.done("render", "mine.glb", *quick("--method", "path", "-o", "sky.exr"))
+        self.write("mine.toml", "[scene]\nfile = 'mine.glb'\n[environment]\nfile = 'sky.exr'\n")
+        self.refused(2, ("render", "mine.toml", *quick("-o", "sky.exr")), "-o sky.exr", "would overwrite sky.exr")
+
+    def test_records_that_are_taken_up(self):
+        self.done("render", "mine.glb", *quick("--save-cache", "records"))
+        self.refused(2, ("render", "mine.glb", *quick("--load-cache", "records", "--stats", "records")), "--load-cache")
+
+    def test_outputs(self):
+        (self.folder / "link.png").symlink_to("a.png")
+        for one, other in (("a.png", "a.png"), ("a.png", "./a.png"), ("a.png", "link.png"), (str(self.folder / "a.png"), "a.png")):
+            with self.subTest(one=one, other=other):
+                self.refused(2, ("render", "mine.glb", *quick("-o", one, "-o", other)), f"-o {one}", f"-o {other}", "one file")
+                self.refused(2, ("render", "mine.glb", *quick("-o", one, "--preview", other)), "one file")
 
 
 class UnwritableOutput(ProgramTest):

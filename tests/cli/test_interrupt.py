@@ -23,6 +23,9 @@ class Interrupt(ProgramTest):
         return process.returncode
 
     def test_the_first_one_finishes_with_what_is_known(self):
+        self.done("render", BOX, "--size", "256x256", "--method", "path", "--spp", "1", "--max-depth", "1", "-o", "seen.exr")
+        seen = picture_channels(self.folder / "seen.exr")[0]["A"]
+        (self.folder / "seen.exr").unlink()
         # Records enough for an hour; what the coarsest level has made covers parts of the picture.
         for which in (signal.SIGINT, signal.SIGTERM):
             process = self.start("render", BOX, "--size", "256x256", "--method", "ward1992", "--a", "0.05", "--rays", "400",
@@ -41,7 +44,7 @@ class Interrupt(ProgramTest):
             png_size(self.folder / "out.png"), png_size(self.folder / "preview.png")
             stats = json.loads((self.folder / "stats.json").read_text())
             self.assertTrue(stats["cancelled"])
-            self.assertEqual(stats["uncovered"], 0)
+            self.assertEqual((stats["samples"], stats["uncovered"]), (256 * 256, seen.count(1) - alpha.count(1)))
 
     def test_in_the_final_pass_every_pixel_has_a_sample(self):
         process = self.start("render", BOX, "--size", "128x128", "--method", "path", "--spp", "65536", *OUTPUTS)
@@ -50,6 +53,9 @@ class Interrupt(ProgramTest):
         self.assertEqual(self.finish(process), 1)
         channels, _ = picture_channels(self.folder / "out.exr")
         self.assertGreater(sum(channels["A"]), 0.9 * 128 * 128)
+        stats = json.loads((self.folder / "stats.json").read_text())
+        self.assertGreaterEqual(stats["samples"], 128 * 128)
+        self.assertLess(stats["samples"], 65536 * 128 * 128)
 
     def test_a_second_one_aborts(self):
         self.write("out.exr", "older")

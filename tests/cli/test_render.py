@@ -26,6 +26,10 @@ class Outputs(ProgramTest):
                 self.assertAlmostEqual(whole, direct + indirect, delta=1e-5 * (1 + whole))
         self.assertGreater(sum(channels["irradiance.G"]), 0)
 
+    def test_the_scene_may_follow_an_output(self):
+        self.done("render", "-o", "a.png", BOX, *quick("-o", "b.png"))
+        self.assertEqual(self.names(), ["a.png", "b.png"])
+
     def test_exposure(self):
         for exposure in ("auto", "2", "-3"):
             said = self.done("render", BOX, *quick("--exposure", exposure, "-o", exposure + ".png")).stdout
@@ -40,6 +44,14 @@ class Outputs(ProgramTest):
         self.assertEqual((self.folder / "link").read_bytes(), b"older")
         picture_channels(self.folder / "out.exr")
         self.assertEqual(self.names(), ["link", "out.exr"])
+
+    def test_links_are_kept(self):
+        (self.folder / "there").mkdir()
+        (self.folder / "link.exr").symlink_to("there/picture.exr")
+        self.done("render", BOX, *quick("-o", "link.exr"))
+        self.assertTrue((self.folder / "link.exr").is_symlink())
+        picture_channels(self.folder / "there" / "picture.exr")
+        self.assertEqual(self.names(), ["link.exr", "there"])
 
     def test_threads_change_nothing(self):
         for threads in ("1", "2", "5"):
@@ -61,6 +73,9 @@ class Outputs(ProgramTest):
         self.assertGreaterEqual(again["records"], first["records"])
         self.assertLessEqual(again["records"], 1.02 * first["records"])
         self.assertLess(again["rays"]["gather"], 0.02 * first["rays"]["gather"])
+        whole = (self.folder / "records").read_bytes()
+        self.done("render", BOX, *quick("--load-cache", "records", "--save-cache", "./records", "--stats", "s.json"))
+        self.assertGreaterEqual(len((self.folder / "records").read_bytes()), len(whole))
         (a, _), (b, _) = (picture_channels(self.folder / name) for name in ("a.exr", "b.exr"))
         for x, y in zip(a["irradiance.G"], b["irradiance.G"]):
             self.assertAlmostEqual(x, y, delta=0.02 * (x + 0.1))
@@ -103,6 +118,19 @@ class Statistics(ProgramTest):
         stats = self.stats(BOX, *quick("--size", "64x64", "--records", "300", "--no-check"))
         self.assertLess(abs(stats["records"] - 300), 15)
 
+    def test_the_closing_words_on_the_error(self):
+        # Met; not met; and asked for less than the measurement's own noise.
+        verdicts = set()
+        for flags in (("--error", "0.5"), ("--error", "0.001", "--rays", "12"), ("--size", "48x48", "--error", "0.01", "--rays", "3200")):
+            said = self.done("render", BOX, *quick(*flags, "--stats", "stats.json")).stdout
+            error = json.loads((self.folder / "stats.json").read_text())["error"]
+            above = error["mean"] - error["noise"] > error["asked"]
+            hidden = not above and error["mean"] > 1.5 * error["asked"]
+            self.assertEqual("above the asked error; more --rays lower" in said, above, said)
+            self.assertEqual("not measurable at this noise" in said, hidden, said)
+            verdicts.add((above, hidden))
+        self.assertEqual(verdicts, {(False, False), (True, False), (False, True)})
+
     def test_orders_and_parameters(self):
         stats = self.stats(BOX, *quick("--order", "lazy", "--method", "ward1992", "--a", "0.5", "--metric",
                            "bounded-split-sphere", "--estimator", "ward-heckbert-exact"))
@@ -125,6 +153,13 @@ class SceneFiles(ProgramTest):
         stats = self.stats(scene, "--size", "16x20", "--spp", "1", "--method", "bounded", "--error", "0.05", "--seed", "4")
         self.assertEqual((stats["width"], stats["height"], stats["samples"]), (16, 20, 16 * 20))
         self.assertEqual((stats["method"], stats["seed"], stats["error"]["asked"]), ("bounded", 4, 0.05))
+
+    def test_flags_decide_in_place_of_the_file(self):
+        for text in ("a = 0.5\n", "records = 50\n", "error = 0.1\n"):
+            scene = self.scene("[method]\n" + text)
+            stats = self.stats(scene, *quick("--error", "0.2"))
+            self.assertEqual(stats["error"]["asked"], 0.2)
+            self.assertAlmostEqual(self.stats(scene, *quick("--a", "0.4"))["parameters"]["a"], 0.4)
 
     def test_a_combination_may_be_completed_by_the_file(self):
         scene = self.scene("[method]\nbound-gradient = false\n")
@@ -161,12 +196,20 @@ class Cameras(ProgramTest):
 
 class Manners(ProgramTest):
     def test_help_version_and_methods(self):
-        for arguments in (("--help",), ("render", "--help"), ("--version",)):
-            self.assertTrue(self.done(*arguments).stdout)
+        for arguments in (("--help",), ("render", "--help"), ("compare", "--help"), ("--version",)):
+            said = self.done(*arguments).stdout
+            self.assertTrue(said)
+            for unreadable in ("INT", "TEXT", "FLOAT", "{", " ..."):
+                self.assertNotIn(unreadable, said, arguments)
         listed = self.done("methods").stdout
         for name in ("path", "ward1988", "ward1992", "bounded", "uniform", "cached", "irradiance", "ward-heckbert",
                      "ward-heckbert-exact", "split-sphere", "bounded-split-sphere", "[Ward, Heckbert 1992]"):
             self.assertRegex(listed, r"(^|\s)%s(\s|$)" % name.replace("[", r"\[").replace("]", r"\]"))
+        for table in listed.split("\n\n"):
+            heading, *rows = table.splitlines()
+            for start in re.finditer(r"(?<=  )\S", heading):
+                for row in rows:
+                    self.assertEqual(row[start.start() - 1:start.start()].strip(), "", row)
         # Every method that is listed renders.
         for name in listed.split("\n\n")[0].splitlines()[1:]:
             self.stats(BOX, *quick("--method", name.split()[0]))
@@ -178,7 +221,10 @@ class Manners(ProgramTest):
         phases = list(dict.fromkeys(line["phase"] for line in lines))
         self.assertEqual([p for p in phases if p != "check"], ["load", "build", "final"])
         for line in lines:
-            self.assertTrue(0 <= line["done"] <= 1 and line["seconds_left"] >= 0, line)
+            self.assertTrue(0 <= line["done"] <= 1, line)
+            # From next to nothing no time is foretold.
+            self.assertEqual(line["seconds_left"] is None, line["done"] < 0.02, line)
+            self.assertTrue(line["seconds_left"] is None or line["seconds_left"] >= 0, line)
         for phase in ("build", "final"):
             done = [line["done"] for line in lines if line["phase"] == phase]
             self.assertEqual((done, done[-1]), (sorted(done), 1))

@@ -70,6 +70,32 @@ TEST_F(AtomicFileTest, ReplacesAnOlderFile) {
   EXPECT_EQ(content(path("a")), "new");
 }
 
+TEST_F(AtomicFileTest, ReplacesWhatALinkLeadsToAndKeepsTheLink) {
+  fs::create_directory(folder_ / "there");
+  std::ofstream(path("there/old")) << "old";
+  fs::create_symlink("there/old", path("link"));
+  fs::create_symlink("link", path("link to a link"));
+  fs::create_symlink(path("there/new"), path("link to what is not there yet"));
+  for (const char* name : {"link to a link", "link to what is not there yet"}) {
+    AtomicFile file(path(name));
+    file.stream() << "new";
+    file.commit();
+    EXPECT_TRUE(fs::is_symlink(path(name)));
+    EXPECT_EQ(content(path(name)), "new");
+  }
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(content(path("there/old")), "new");
+  EXPECT_EQ(content(path("there/new")), "new");
+  EXPECT_EQ(files(), 4u);
+}
+
+TEST_F(AtomicFileTest, RefusesARingOfLinks) {
+  fs::create_symlink("b", path("a"));
+  fs::create_symlink("a", path("b"));
+  EXPECT_THROW(AtomicFile{path("a")}, UserError);
+  EXPECT_EQ(files(), 2u);
+}
+
 TEST_F(AtomicFileTest, FailedWritesAreNotCommitted) {
   AtomicFile file(path("a"));
   file.stream() << "x";

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "isophote/apps/commands.h"
+#include "isophote/apps/output_files.h"
 #include "isophote/core/error.h"
 #include "isophote/image/exr.h"
 #include "isophote/image/false_colour.h"
@@ -12,19 +15,42 @@
 namespace isophote::app {
 namespace {
 
+/// A layer of colours; or one of a single channel, as grey: `depth.Z`, or `depth` for short.
+RgbImage layer_of(const ExrFile& file, const std::string& layer) {
+  const std::vector<std::string> colours = file.layers();
+  if (std::find(colours.begin(), colours.end(), layer) != colours.end()) return file.rgb(layer);
+  for (const char* suffix : {"", ".Z", ".Y"})
+    if (const ExrFile::Channel* channel = file.find(layer + suffix)) {
+      RgbImage image(file.width, file.height);
+      for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = Rgb(channel->values[i]);
+      return image;
+    }
+  return file.rgb(layer);  // says what there is
+}
+
 RgbImage read_layer(const std::string& path, const std::string& layer, int block) {
   const ExrFile file = read_exr(path);
   try {
-    const RgbImage image = file.rgb(layer);
+    const RgbImage image = layer_of(file, layer);
     return block > 1 ? block_average(image, block) : image;
   } catch (const UserError& error) {
     throw UserError(fmt::format("{}: {}", path, error.what()));
   }
 }
 
+void check_files(const CompareRequest& request) {
+  if (request.error_picture.empty()) return;
+  const std::array outputs{NamedFile{"--error-picture " + request.error_picture, request.error_picture}};
+  require_png(outputs[0]);
+  const std::array inputs{NamedFile{"the picture", request.image}, NamedFile{"the reference", request.reference},
+                          NamedFile{"the reference of --second", request.second}};
+  check_kept(inputs, outputs);
+}
+
 }  // namespace
 
 int compare(const CompareRequest& request) {
+  check_files(request);
   const RgbImage image = read_layer(request.image, request.layer, request.block);
   const RgbImage reference = read_layer(request.reference, request.layer, request.block);
   const RgbImage second = request.second.empty() ? reference : read_layer(request.second, request.layer, request.block);

@@ -12,8 +12,11 @@ using namespace isophote;
 
 void add_render(CLI::App& program, app::RenderRequest& request) {
   CLI::App* verb = program.add_subcommand("render", "Render a scene (.glb, .gltf or .toml)");
-  verb->add_option("scene", request.scene, "scene file")->required();
+  verb->add_option("scene", request.scene, "scene file")->type_name("FILE")->required();
   verb->add_option("-o,--output", request.outputs, "picture: .exr (all layers) or .png; may be repeated")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
   for (const app::Option& option : app::options()) {
     const std::string name(option.name);
@@ -22,30 +25,42 @@ void add_render(CLI::App& program, app::RenderRequest& request) {
             std::string(option.help))
         ->type_name(std::string(option.values));
   }
-  verb->add_option("--threads", request.threads, "worker threads (default: all)")->check(CLI::Range(0, 1024));
+  verb->add_option("--threads", request.threads, "worker threads (default: all)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024).description(""));
   verb->add_option("--stats", request.stats, "write statistics as JSON")->type_name("FILE");
-  verb->add_option("--progress", request.progress, "bar, json or none (default: bar on a terminal)")
-      ->check(CLI::IsMember({"bar", "json", "none"}));
+  verb->add_option("--progress", request.progress,
+                   "how far the work is, on standard error (default: bar on a terminal)")
+      ->type_name("bar|json|none")
+      ->check(CLI::IsMember({"bar", "json", "none"}).description(""));
   verb->add_option("--preview", request.preview, "rewrite this PNG from coarse to fine while working")
       ->type_name("FILE");
   verb->add_option("--show-records", request.records_picture, "write a PNG of the records and their footprints")
       ->type_name("FILE");
   verb->add_option("--save-cache", request.save_cache, "write the records")->type_name("FILE");
   verb->add_option("--load-cache", request.load_cache, "start with these records")->type_name("FILE");
-  verb->add_flag("!--no-check", request.check, "do not measure the error");
+  verb->add_flag_callback(
+      "--no-check", [&request] { request.check = false; }, "do not measure the error");
 }
 
 void add_compare(CLI::App& program, app::CompareRequest& request) {
   CLI::App* verb = program.add_subcommand("compare", "Measure how a picture differs from a reference");
-  verb->add_option("image", request.image, "EXR picture")->required();
-  verb->add_option("reference", request.reference, "EXR reference")->required();
+  verb->add_option("image", request.image, "EXR picture")->type_name("FILE")->required();
+  verb->add_option("reference", request.reference, "EXR reference")->type_name("FILE")->required();
   verb->add_option("--second", request.second, "an independent second reference: the noise of both cancels")
       ->type_name("FILE");
-  verb->add_option("--layer", request.layer, "layer of both, such as irradiance (default: the colours)");
-  verb->add_option("--block", request.block, "average over blocks of N x N pixels first")->check(CLI::Range(1, 4096));
-  verb->add_option("--error-picture", request.error_picture, "write a PNG: blue too dark, red too bright")
+  verb->add_option("--layer", request.layer, "layer of both, such as irradiance or depth (default: the colours)")
+      ->type_name("NAME");
+  verb->add_option("--block", request.block, "average over blocks of N x N pixels first")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096).description(""));
+  verb->add_option(
+          "--error-picture", request.error_picture,
+          "write a PNG of the differences in luminance: white none, blue too dark, red too bright; full colour "
+          "from 20% of the reference's mean luminance")
       ->type_name("FILE");
-  verb->add_option("--fail-above", request.fail_above, "exit with 1 where the relative RMSE is above this");
+  verb->add_option("--fail-above", request.fail_above, "exit with 1 where the relative RMSE is above this")
+      ->type_name("E");
   verb->add_flag("--json", request.json, "print JSON");
 }
 
@@ -57,16 +72,25 @@ int run(int argc, char** argv) {
   add_render(program, render_request);
   add_compare(program, compare_request);
   program.add_subcommand("methods", "List the methods, estimators and metrics");
+  const std::string first = argc > 1 ? argv[1] : "";
+  std::string verbs;
+  bool is_verb = false;
+  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) {
+    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+    is_verb = is_verb || verb->get_name() == first;
+  }
+  if (argc > 1 && !is_verb && !first.starts_with('-'))
+    throw UsageError("unknown command '" + first + "'; there are: " + verbs);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);
-    throw UsageError(std::string(error.what()) + " (see isophote --help)");
+    throw UsageError(std::string(error.what()) + " (see isophote " + (is_verb ? first + " " : "") + "--help)");
   }
   if (program.got_subcommand("render")) return app::render(render_request);
   if (program.got_subcommand("compare")) return app::compare(compare_request);
   if (program.got_subcommand("methods")) return app::methods();
-  throw UsageError("wants one of render, compare, methods (see isophote --help)");
+  throw UsageError("wants one of " + verbs + " (see isophote --help)");
 }
 
 }  // namespace

@@ -1,27 +1,54 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "isophote/apps/commands.h"
 #include "isophote/cache/catalogue.h"
 
 namespace isophote::app {
+namespace {
+
+using Row = std::vector<std::string>;
+
+/// Columns as wide as what they hold; all rows have as many cells as the first, the heading.
+void print_table(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) fmt::print("{:<{}}  ", row[i], widths[i]);
+    fmt::print("{}\n", row.back());
+  }
+}
+
+}  // namespace
 
 int methods() {
-  fmt::print("{:<10} {:<20} {:<21} {:<47} {:<10} {}\n", "method", "estimator", "metric", "bounds", "secondary",
-             "what it is");
+  std::vector<Row> rows = {{"method", "estimator", "metric", "bounds", "secondary", "what it is"}};
   for (const Method& m : isophote::methods()) {
-    if (!m.caches()) {
-      fmt::print("{:<10} {:<20} {:<21} {:<47} {:<10} {} {}\n", m.name, "-", "-", "-", "-", m.summary, m.paper);
-      continue;
-    }
-    fmt::print("{:<10} {:<20} {:<21} {:<47} {:<10} {} {}\n", m.name, m.estimator->name, m.metric->name,
-               describe(m.settings.bounds), m.secondary ? "on" : "off", m.summary, m.paper);
+    const std::string what = std::string(m.summary) + (m.paper.empty() ? "" : " ") + std::string(m.paper);
+    if (m.caches())
+      rows.push_back({std::string(m.name), std::string(m.estimator->name), std::string(m.metric->name),
+                      describe(m.settings.bounds), m.secondary ? "on" : "off", what});
+    else
+      rows.push_back({std::string(m.name), "-", "-", "-", "-", what});
   }
-  fmt::print("\n{:<21} {:<44} {}\n", "estimator", "gives", "paper");
-  for (const Estimator& e : estimators()) fmt::print("{:<21} {:<44} {}\n", e.name, e.gives, e.paper);
-  fmt::print("\n{:<21} {:<44} {}\n", "metric", "needs", "paper");
+  print_table(rows);
+
+  rows = {{"estimator", "gives", "paper"}};
+  for (const Estimator& e : estimators())
+    rows.push_back({std::string(e.name), std::string(e.gives), std::string(e.paper)});
+  fmt::print("\n");
+  print_table(rows);
+
+  rows = {{"metric", "needs", "paper"}};
   for (const Metric& m : metrics())
-    fmt::print("{:<21} {:<44} {}\n", m.name, m.bounded ? "distances; a gradient for the gradient bound" : "distances",
-               m.paper);
+    rows.push_back({std::string(m.name), m.bounded ? "distances; a gradient for the gradient bound" : "distances",
+                    std::string(m.paper)});
+  fmt::print("\n");
+  print_table(rows);
   return 0;
 }
 

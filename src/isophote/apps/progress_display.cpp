@@ -21,15 +21,18 @@ void ProgressDisplay::show(std::string_view phase, double done) {
     return;
   last_ = now;
   const double spent = now.wall - start_.wall;
-  const double left = done > 0 ? spent * (1 - done) / done : 0;
+  constexpr double enough = 0.02;  // less work than this says nothing about the rest
+  const bool known = done >= enough;
+  const double left = known ? spent * (1 - done) / done : 0;
   if (mode_ == Mode::json) {
-    fmt::print(stderr, "{{\"phase\":\"{}\",\"done\":{:.4f},\"seconds_left\":{:.1f}}}\n", phase, done, left);
+    fmt::print(stderr, "{{\"phase\":\"{}\",\"done\":{:.4f},\"seconds_left\":{}}}\n", phase, done,
+               known ? fmt::format("{:.1f}", left) : "null");
     return;
   }
   constexpr int width = 40;
   const int filled = static_cast<int>(std::clamp(done, 0.0, 1.0) * width);
-  fmt::print(stderr, "\r{:<6} [{}{}] {:3.0f}%  {:.0f} s left \033[K", phase, std::string(filled, '#'),
-             std::string(width - filled, '.'), 100 * done, left);
+  fmt::print(stderr, "\r{:<6} [{}{}] {:3.0f}%{} \033[K", phase, std::string(filled, '#'),
+             std::string(width - filled, '.'), 100 * done, known ? fmt::format("  {:.0f} s left", left) : "");
   std::fflush(stderr);
   drawn_ = true;
 }

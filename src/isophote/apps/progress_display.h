@@ -7,7 +7,8 @@
 namespace isophote::app {
 
 /// A progress report on standard error: a bar with phase and time left, lines of JSON, or nothing. An empty mode means
-/// a bar on a terminal and nothing in a pipe. Throttled to ten reports a second.
+/// a bar on a terminal and nothing in a pipe. The time left is told once 2% are done. Throttled to ten reports a
+/// second.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(const std::string& mode);

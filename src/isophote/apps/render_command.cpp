@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
-#include "isophote/apps/commands.h"
 #include "isophote/apps/progress_display.h"
+#include "isophote/apps/render_request.h"
 #include "isophote/apps/statistics.h"
 #include "isophote/apps/threads.h"
 #include "isophote/cache/record_file.h"
-#include "isophote/core/atomic_file.h"
-#include "isophote/core/error.h"
 #include "isophote/image/png.h"
 #include "isophote/integrate/record_picture.h"
 #include "isophote/integrate/render.h"
@@ -19,85 +17,6 @@
 
 namespace isophote::app {
 namespace {
-
-bool ends_with(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-std::vector<std::string> written_files(const RenderRequest& request) {
-  std::vector<std::string> files = request.outputs;
-  for (const std::string& file : {request.stats, request.preview, request.records_picture, request.save_cache})
-    if (!file.empty()) files.push_back(file);
-  return files;
-}
-
-/// Flags that cannot work are refused before anything is read.
-void check_request(const RenderRequest& request) {
-  if (request.outputs.empty() && request.stats.empty() && request.records_picture.empty() && request.save_cache.empty())
-    throw UsageError("nothing to write: give -o FILE.exr or FILE.png (or --stats, --show-records, --save-cache)");
-  for (const std::string& output : request.outputs)
-    if (!ends_with(output, ".exr") && !ends_with(output, ".png"))
-      throw UsageError(fmt::format("-o {}: the name must end in .exr or .png", output));
-  for (const auto& [flag, png] : {std::pair{"--preview", request.preview}, {"--show-records", request.records_picture}})
-    if (!png.empty() && !ends_with(png, ".png"))
-      throw UsageError(fmt::format("{} {}: the name must end in .png", flag, png));
-  std::vector<std::string> files = written_files(request);
-  std::sort(files.begin(), files.end());
-  if (const auto twice = std::adjacent_find(files.begin(), files.end()); twice != files.end())
-    throw UsageError(fmt::format("{} is to be written twice", *twice));
-}
-
-/// Flags win over the scene file, the scene file over defaults.
-RenderSettings merged_settings(const RenderRequest& request, const std::vector<Setting>& from_file) {
-  RenderSettings settings;
-  for (const Setting& s : from_file) apply_setting(settings, s.table, s.key, s.value, s.place);
-  for (const auto& [name, value] : request.settings) {
-    const auto options = app::options();
-    const auto option =
-        std::find_if(options.begin(), options.end(), [&n = name](const Option& o) { return o.name == n; });
-    try {
-      option->apply(settings, value);
-    } catch (const UsageError& error) {
-      throw UsageError(fmt::format("--{}: {}", name, error.what()));
-    }
-  }
-  return settings;
-}
-
-/// Flags that decide the same thing, and flags that method `path` has no use for. (A scene file may hold settings for
-/// another method.)
-void check_flags(const RenderRequest& request, const Method& method) {
-  std::string deciding;
-  for (const auto& [name, value] : request.settings) {
-    if (name == "a" || name == "records") {
-      if (!deciding.empty())
-        throw UsageError(fmt::format("--{} and --{} both decide how many records there are: give one", deciding, name));
-      deciding = name;
-    }
-    const auto options = app::options();
-    const auto option =
-        std::find_if(options.begin(), options.end(), [&n = name](const Option& o) { return o.name == n; });
-    if (!method.caches() && option->caches)
-      throw UsageError(fmt::format("method 'path' caches nothing: it takes no --{}", name));
-  }
-}
-
-/// What the chosen way of rendering cannot do is refused, not left undone.
-void check_against_method(const RenderRequest& request, const RenderSettings& settings, const Method& method) {
-  check_flags(request, method);
-  if (settings.lazy && !request.preview.empty())
-    throw UsageError("--order lazy is one pass from the top: it takes no --preview");
-  if (!method.caches() &&
-      !(request.save_cache.empty() && request.load_cache.empty() && request.records_picture.empty()))
-    throw UsageError("method 'path' caches nothing: it takes no --save-cache, --load-cache or --show-records");
-  if (settings.records && (settings.lazy || !request.load_cache.empty()))
-    throw UsageError("--records builds caches in rounds and from nothing: it takes no --order lazy or --load-cache");
-}
-
-/// A file that cannot be written is found out before the work, not after it.
-void check_outputs(const RenderRequest& request) {
-  for (const std::string& file : written_files(request)) AtomicFile{file};
-}
 
 /// Refuses pictures that do not fit in memory: the film, and twice as much again for the layers made of it and their
 /// encoding.
@@ -126,7 +45,7 @@ class Rendering {
       : request_(request), threads_(request.threads), display_(request.progress), start_(Clock::now()) {
     // What the flags say wrongly is said before the scene is read; a scene file may yet complete a combination.
     const RenderSettings flags = merged_settings(request, {});
-    if (!ends_with(request.scene, ".toml")) check_against_method(request, flags, chosen_method(flags));
+    if (!request.scene.ends_with(".toml")) check_against_method(request, flags, chosen_method(flags));
   }
 
   int run() {
@@ -150,12 +69,17 @@ class Rendering {
       display_.clear();
       fmt::print(stderr, "isophote: warning: {}\n", line);
     });
+    check_scene_is_kept(request_, loaded_.files);
     settings_ = merged_settings(request_, loaded_.settings);
     const Method method = chosen_method(settings_);
     check_against_method(request_, settings_, method);
     const Camera camera = chosen_camera(settings_, loaded_.scene);
     rays_.emplace(loaded_.scene);
-    emitters_.emplace(loaded_.scene);
+    try {
+      emitters_.emplace(loaded_.scene);
+    } catch (const UserError& error) {
+      throw UserError(fmt::format("{}: {}", request_.scene, error.what()));
+    }
     job_.emplace(
         Job{World{loaded_.scene, *rays_, *emitters_, settings_.max_depth.value_or(std::numeric_limits<int>::max())},
             camera});
@@ -257,19 +181,19 @@ class Rendering {
   void write(const Film& film) {
     display_.clear();
     for (const std::string& output : request_.outputs) {
-      if (ends_with(output, ".exr")) {
+      if (output.ends_with(".exr")) {
         write_exr(output, film.exr());
         continue;
       }
-      const RgbImage image = film.color();
-      write_png(output, image, exposure(image));
-      fmt::print("{}: exposure {:+.2f} EV\n", output, exposure(image));
+      const float stops = exposure(film.surfaces());
+      write_png(output, film.color(), stops);
+      fmt::print("{}: exposure {:+.2f} EV\n", output, stops);
     }
-    fill_statistics();
+    fill_statistics(film);
     if (!request_.stats.empty()) statistics_.write_json(request_.stats);
   }
 
-  void fill_statistics() {
+  void fill_statistics(const Film& film) {
     Statistics& s = statistics_;
     const Job& job = *job_;
     s.method = job.method.name;
@@ -284,7 +208,7 @@ class Rendering {
     if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
     s.seed = settings_.seed, s.threads = threads_.count();
     s.width = job.width, s.height = job.height, s.triangles = loaded_.scene.triangle_count();
-    s.samples = static_cast<std::uint64_t>(job.width) * job.height * job.samples;
+    s.samples = film.samples();
     s.time.total = Clock::now() - start_;
   }
 

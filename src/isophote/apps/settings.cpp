@@ -62,13 +62,14 @@ constexpr Option table[] = {
     {"method", "metric", "NAME", "another metric than the method's", [](S& s, T t) { s.metric = find_metric(t).name; },
      true},
     {"method", "error", "E",
-     "wanted mean relative error of the cached irradiance (default: 0.02); decides the threshold",
+     "wanted mean relative error of the cached irradiance (default: 0.02); decides the threshold; method path "
+     "ignores it",
      [](S& s, T t) { s.error = number<double>(t, 1e-5, 10), s.a.reset(), s.records.reset(); }},
     {"method", "a", "A", "the metric's own threshold, in place of --error",
-     [](S& s, T t) { s.a = number<float>(t, 1e-4, 1), s.error.reset(), s.records.reset(); }, true},
+     [](S& s, T t) { s.a = number<float>(t, 1e-4, greatest_threshold), s.error.reset(), s.records.reset(); }, true},
     {"method", "records", "N", "solve for the threshold that gives about N records",
      [](S& s, T t) { s.records = number<int>(t, 1, 10'000'000), s.error.reset(), s.a.reset(); }, true},
-    {"method", "rays", "N", "gather rays of a record (default: 800)",
+    {"method", "rays", "N", "gather rays of a record (default: 800); method path ignores it",
      [](S& s, T t) { s.rays = number<int>(t, 12, 1 << 24); }},
     {"method", "secondary", "on|off", "do gather rays read the cache where they hit?",
      [](S& s, T t) { s.secondary = on_off(t); }, true},
@@ -104,6 +105,15 @@ Vec3 point(const std::string& text) {
   for (std::string part; std::getline(in, part, ',');) v.push_back(number<float>(part, -1e30, 1e30));
   if (v.size() != 3) throw UsageError(fmt::format("--camera: wants x,y,z, not '{}'", text));
   return {v[0], v[1], v[2]};
+}
+
+/// A radius cannot obey a lower bound above the upper one, be that the method's own.
+void check_order(const RadiusBounds& b) {
+  const auto check = [](std::string_view unit, float low, float high) {
+    if (low > high) throw UsageError(fmt::format("--min-{0} {1:g} is above --max-{0} {2:g}", unit, low, high));
+  };
+  check("pixels", b.min_pixels, b.max_pixels);
+  check("radius", b.min_length, b.max_length);
 }
 
 }  // namespace
@@ -142,8 +152,8 @@ Method chosen_method(const RenderSettings& s) {
   bounds.max_length = s.max_radius.value_or(bounds.max_length);
   bounds.gradient = s.bound_gradient.value_or(bounds.gradient);
   bounds.neighbours = s.bound_neighbours.value_or(bounds.neighbours);
-  method.settings.a = s.a.value_or(
-      std::min(1.0f, method.metric->a_per_root_error * static_cast<float>(std::sqrt(s.error.value_or(default_error)))));
+  check_order(bounds);
+  method.settings.a = s.a ? *s.a : threshold(*method.metric, s.error.value_or(default_error));
   // A cached value has no depth: with a limit on depth, gather rays follow their paths.
   method.secondary = s.secondary.value_or(method.secondary && !s.max_depth);
   if (method.secondary && s.max_depth) throw UsageError("--secondary on has no limit of depth: leave out --max-depth");
@@ -156,7 +166,7 @@ std::string describe(const RadiusBounds& b) {
   const auto add = [&](const std::string& s) { text += (text.empty() ? "" : ", ") + s; };
   if (b.min_pixels > 0) add(fmt::format("at least {:g} px", b.min_pixels));
   if (b.max_pixels < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} px", b.max_pixels));
-  if (b.min_view > 0) add(fmt::format("at least {:g} a heights", b.min_view));
+  if (b.min_view > 0) add(fmt::format("at least {:g} a of the picture's height", b.min_view));
   if (b.min_length > 0) add(fmt::format("at least {:g} scene units", b.min_length));
   if (b.max_length < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} scene units", b.max_length));
   if (b.gradient) add("gradient");

@@ -38,10 +38,11 @@ void Statistics::print() const {
         "bias {:+.3g}; the measurement's own noise is {:.2g})\n",
         error_asked ? fmt::format("asked {:.3g}, ", *error_asked) : "", error.mean, error.points, error.median,
         error.p95, error.bias, error.noise);
-  if (error.points > 0 && error_asked && error.mean > 1.5 * *error_asked)
-    fmt::print("             above the asked error{}\n", error.noise > *error_asked
-                                                             ? ", as far as the measurement's noise can tell"
-                                                             : "; more --rays lower the records' own noise");
+  if (error.points == 0 || !error_asked) return;
+  if (error.mean - error.noise > *error_asked)  // the measured mean contains the measurement's noise
+    fmt::print("             above the asked error; more --rays lower the records' own noise\n");
+  else if (error.mean > 1.5 * *error_asked)
+    fmt::print("             whether the asked error is met is not measurable at this noise\n");
 }
 
 void Statistics::write_json(const std::string& path) const {

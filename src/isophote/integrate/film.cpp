@@ -1,6 +1,7 @@
 #include "isophote/integrate/film.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace isophote {
 
@@ -18,6 +19,10 @@ void Film::add(int x, int y, const PixelSample& sample) {
   sum.alpha += sample.alpha;
 }
 
+std::uint64_t Film::samples() const {
+  return std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0}) * static_cast<std::uint64_t>(width_);
+}
+
 RgbImage Film::mean(Rgb PixelSample::*layer) const {
   RgbImage image(width_, height_);
   for (int y = 0; y < height_; ++y)
@@ -33,6 +38,15 @@ RgbImage Film::color() const {
   const RgbImage rest = mean(&PixelSample::indirect);
   for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += rest.pixels[i];
   return sum;
+}
+
+RgbImage Film::surfaces() const {
+  const auto seen = [](const PixelSample& sum) { return sum.alpha > 0; };
+  RgbImage image = color();
+  if (std::none_of(sums_.begin(), sums_.end(), seen)) return image;
+  for (std::size_t i = 0; i < sums_.size(); ++i)
+    if (!seen(sums_[i])) image.pixels[i] = {};
+  return image;
 }
 
 ExrFile Film::exr() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "isophote/core/vec.h"
@@ -27,8 +28,12 @@ class Film {
   /// To be called once all pixels of a row have been given `samples` more samples.
   void finish_row(int y, int samples) { samples_[y] += samples; }
   int samples(int y) const { return samples_[y]; }
+  std::uint64_t samples() const;  ///< of all pixels
 
   RgbImage color() const;  ///< direct + indirect
+  /// The colours that an exposure is chosen from: those of pixels that see a surface, the others black; all where none
+  /// does.
+  RgbImage surfaces() const;
   RgbImage irradiance() const { return mean(&PixelSample::irradiance); }
   /// All layers under the project's names: R,G,B,A, direct, indirect, irradiance, albedo, normal, depth.Z.
   ExrFile exr() const;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "isophote/apps/commands.h"
+#include "isophote/apps/settings.h"
+#include "isophote/load/scene_file.h"
+
+namespace isophote::app {
+
+// What of a request can be judged before the work. All throw UsageError, except where a file cannot be written.
+
+/// Flags that cannot work are refused before anything is read.
+void check_request(const RenderRequest& request);
+
+/// Refuses outputs that would overwrite what the scene was read from. (Of `request.scene` check_request knows.)
+void check_scene_is_kept(const RenderRequest& request, std::span<const std::string> scene_files);
+
+/// A file that cannot be written is found out before the work, not after it. Throws UserError.
+void check_outputs(const RenderRequest& request);
+
+/// Flags win over the scene file, the scene file over defaults.
+RenderSettings merged_settings(const RenderRequest& request, const std::vector<Setting>& from_file);
+
+/// What the chosen way of rendering cannot do is refused, not left undone.
+void check_against_method(const RenderRequest& request, const RenderSettings& settings, const Method& method);
+
+}  // namespace isophote::app
