@@ -98,7 +98,8 @@ TEST(Catalogue, MakesAndSettlesRecordsAsItsPartsSay) {
     EXPECT_EQ(records[0].jet.translational == Gradient<Rgb>{}, !method.estimator->gradients);
     const float radius = records[0].footprint.radius;
     const std::uint32_t fresh = 0;
-    method.settle(records, {&fresh, 1});
+    NeighbourIndex neighbours({gather.position, gather.position});
+    method.settle({records, neighbours}, {&fresh, 1});
     EXPECT_EQ(records[0].footprint.radius, radius);
     EXPECT_GT(radius, 0);
   }

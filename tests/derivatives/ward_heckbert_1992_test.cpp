@@ -268,7 +268,15 @@ TEST(WardHeckbert, OpenSky) {
   EXPECT_EQ(open.distances.harmonic_mean, infinity);
 }
 
-// The nearer surface decides, and where both samples lie on it, that is its own distance.
+// Where the interpolated normal leans over the surface itself, the directions under that surface see nothing; their rim
+// goes with the record and moves nothing.
+TEST(WardHeckbert, TheSurfaceItselfIsNoEdge) {
+  GatherSample own = seen(0, infinity);
+  own.surface = GatherSample::own_surface;
+  const HemisphereGather gather = imagine({16, 50}, [&](int j, int k) { return j > 10 && k < 20 ? own : seen(1, 2); });
+  EXPECT_EQ(channel(ward_heckbert_1992(gather, RotationWeights::exact).translational), Vec3d());
+}
+
 TEST(WardHeckbert, HarmonicMeanDistance) {
   const HemisphereGather gather = imagine({2, 4}, [](int j, int k) {
     return seen(1, k == 0 ? 0.5f : j == 0 ? 1.0f : 4.0f);

@@ -94,6 +94,18 @@ TEST(BuildWithRecords, ComesWithinFivePercent) {
     }
 }
 
+TEST(BuildWithRecords, StopsWhereNoThresholdGivesAsFew) {
+  const Stage stage("cornell-box.glb");
+  Job job = stage.job(method("cached"), 48, 48, 1);
+  job.strata = Strata::about(30);
+  job.method.settings.a = greatest_threshold / 2;
+  const BuildReport first = render_all(job).build;
+  const Solved solved = build_with_records(job, 1);
+  EXPECT_EQ(job.method.settings.a, greatest_threshold);
+  EXPECT_GT(solved.cache.records().size(), 1u);
+  EXPECT_LT(solved.report.rays.gather, 2 * first.rays.gather);  // the first try and the last possible one
+}
+
 TEST(LazyOrder, CoversEverythingWithAboutTheRecordsOfRounds) {
   const Stage stage("cornell-box.glb");
   for (const char* name : {"ward1992", "cached"}) {
@@ -129,12 +141,12 @@ TEST(Cancelled, AfterTheFirstRoundThePictureShowsWhatIsCovered) {
   EXPECT_TRUE(r.build.cancelled);
   EXPECT_TRUE(r.final.cancelled);
   EXPECT_EQ(r.build.rounds, 1u);
-  EXPECT_EQ(r.final.uncovered, 0u) << "nothing is to be traced after a cancellation";
+  EXPECT_EQ(r.final.rays.path, 0u) << "nothing is to be traced after a cancellation";
 
   const ExrFile picture = r.exr();
   const RgbImage color = picture.rgb(""), irradiance = picture.rgb("irradiance");
   const std::vector<float>& alpha = picture.find("A")->values;
-  int covered = 0, unknown = 0;
+  std::uint64_t covered = 0, unknown = 0;
   RayCounts counts;
   for (int y = 0; y < job.height; ++y) {
     EXPECT_EQ(r.film.samples(y), 1);
@@ -153,8 +165,9 @@ TEST(Cancelled, AfterTheFirstRoundThePictureShowsWhatIsCovered) {
       ++(cached ? covered : unknown);
     }
   }
-  EXPECT_GT(covered, 100);
-  EXPECT_GT(unknown, 100);
+  EXPECT_GT(covered, 100u);
+  EXPECT_GT(unknown, 100u);
+  EXPECT_EQ(r.final.uncovered, unknown);
 }
 
 TEST(Cancelled, InTheFinalPassTheOtherRowsGetOneSample) {

@@ -49,15 +49,13 @@ TEST(CheckPoints, InAFurnaceMeasureNoMoreThanNoise) {
   job.strata = Strata::about(3000);
   RecordCache cache = render_all(job).cache;
   // The truth, in place of what the records hold.
-  for (Record& record : cache.settling()) record.jet = {Rgb(pi), {}, {}, record.jet.distances};
+  for (Record& record : cache.settling().records) record.jet = {Rgb(pi), {}, {}, record.jet.distances};
   const MeasuredError error = check_points(job, cache, 4000000);
   EXPECT_GT(error.noise, 0);
   EXPECT_LT(error.noise, 0.02);
-  // The mean of |normal| is 0.8 standard errors. The estimate of the noise takes samples as independent; they are
-  // stratified, and err less.
-  EXPECT_LT(error.mean, 0.8 * error.noise);
-  EXPECT_GT(error.mean, 0.2 * error.noise);
-  EXPECT_LT(std::abs(error.bias), 4.5 * error.noise / std::sqrt(error.points));
+  // Both are means of |normal|, whose relative deviation is 0.76.
+  EXPECT_NEAR(error.mean / error.noise, 1, 4.5 * 0.76 * std::sqrt(2.0 / error.points));
+  EXPECT_LT(std::abs(error.bias), 4.5 * 1.26 * error.noise / std::sqrt(error.points));
 }
 
 TEST(CheckPoints, ABudgetDecidesTheirNumberWithinLimits) {
@@ -65,7 +63,7 @@ TEST(CheckPoints, ABudgetDecidesTheirNumberWithinLimits) {
   const Job job = stage.job(method("cached"), 64, 64, 1);
   const RecordCache cache = render_all(job).cache;
   const MeasuredError least = check_points(job, cache, 0), most = check_points(job, cache, 1ull << 40);
-  EXPECT_LE(least.points, 32);
+  EXPECT_LE(least.points, 40);
   EXPECT_GT(least.points, 8);
   EXPECT_GT(most.points, 256);
   EXPECT_LE(most.points, 1024);

@@ -61,6 +61,14 @@ TEST(CachedIntegrator, AgreesWithPathTracingOnGlossySurfaces) {
   }
 }
 
+TEST(CachedIntegrator, ChainsBetweenBrightMetalsEnd) {
+  Scene scene = scenes::room(scenes::metal(Rgb(1), 0.2f));
+  scene.lights.emplace_back().position = {0.3f, 0.2f, 0.1f};
+  const Stage stage(std::move(scene));
+  const Job job = stage.job(method("cached"), 16, 16, 4);
+  EXPECT_GT(mean_luminance(render_all(job).layer("indirect")), 0);
+}
+
 TEST(CachedIntegrator, SeesTheSameFirstPointsAsPathTracing) {
   const Stage stage(glossy_room());
   Job job = stage.job(method("cached", 0.05), 48, 48, 4);
@@ -85,7 +93,6 @@ TEST(MaxDepth, OneIsDirectLightAloneAndMakesNoRecords) {
   EXPECT_GT(mean_luminance(path.layer("direct")), 0.01);
 }
 
-/// In a furnace each event after the first adds one term to the series.
 /// Light of the sky scattered once is indirect; what a mirror shows has one event less left.
 TEST(MaxDepth, HoldsForSkyAndMirrorsAsForPaths) {
   const Stage plate("plate.toml"), gallery("gallery.glb");
@@ -102,6 +109,7 @@ TEST(MaxDepth, HoldsForSkyAndMirrorsAsForPaths) {
   }
 }
 
+/// In a furnace each event after the first adds one term to the series.
 TEST(MaxDepth, CutsTheSeriesForCachesAsForPaths) {
   const Stage stage(scenes::room(scenes::emissive(Rgb(0.5f), Rgb(1))));
   for (const int depth : {2, 3}) {

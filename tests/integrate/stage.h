@@ -19,7 +19,7 @@ namespace isophote::test {
 /// A method as `--method NAME --error E` gives it.
 inline Method method(const std::string& name, double error = 0.02) {
   Method m = find_method(name);
-  if (m.caches()) m.settings.a = std::min(1.0f, m.metric->a_per_root_error * static_cast<float>(std::sqrt(error)));
+  if (m.caches()) m.settings.a = threshold(*m.metric, error);
   return m;
 }
 

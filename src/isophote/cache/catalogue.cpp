@@ -1,5 +1,8 @@
 #include "isophote/cache/catalogue.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "isophote/core/error.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
 #include "isophote/validity/limit_gradient.h"
@@ -25,13 +28,13 @@ constexpr Metric metric_table[] = {
      [](const Jet<Rgb>& jet, const View& view, const MetricSettings& s) {
        return bounded_split_sphere(jet, view, s.a, s.bounds);
      },
-     [](std::span<Record> records, std::span<const std::uint32_t> fresh, const MetricSettings& s) {
-       settle_bounded(records, fresh, s.a, s.bounds);
+     [](const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings& s) {
+       settle_bounded(settling, fresh, s.a, s.bounds);
      }},
     {"uniform", "", false, 1.4f,
      [](const Jet<Rgb>&, const View& view, const MetricSettings& s) { return uniform(view, s.a); },
-     [](std::span<Record> records, std::span<const std::uint32_t> fresh, const MetricSettings&) {
-       for (const std::uint32_t i : fresh) limit_gradient(records[i], records[i].footprint.radius);
+     [](const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings&) {
+       for (Record& r : settling.records.subspan(fresh.front(), fresh.size())) limit_gradient(r, r.footprint.radius);
      }},
 };
 
@@ -83,8 +86,8 @@ Record Method::make_record(const HemisphereGather& gather, const View& view) con
   return record;
 }
 
-void Method::settle(std::span<Record> records, std::span<const std::uint32_t> fresh) const {
-  if (metric->settle) metric->settle(records, fresh, settings);
+void Method::settle(const Settling& settling, std::span<const std::uint32_t> fresh) const {
+  if (metric->settle && !fresh.empty()) metric->settle(settling, fresh, settings);
 }
 
 std::span<const Estimator> estimators() { return estimator_table; }
@@ -94,6 +97,10 @@ std::span<const Method> methods() { return method_table; }
 Method find_method(std::string_view name) { return find(method_table, name, "method"); }
 const Estimator& find_estimator(std::string_view name) { return find(estimator_table, name, "estimator"); }
 const Metric& find_metric(std::string_view name) { return find(metric_table, name, "metric"); }
+
+float threshold(const Metric& metric, double error) {
+  return std::min(greatest_threshold, metric.a_per_root_error * static_cast<float>(std::sqrt(error)));
+}
 
 void check_combination(const Method& method) {
   if (!method.caches()) return;

@@ -26,9 +26,9 @@ struct Estimator {
 struct Metric {
   std::string_view name, paper;
   bool bounded;            ///< heeds MetricSettings::bounds
-  float a_per_root_error;  ///< a = this * sqrt(wanted error), measured once over the project's scenes
+  float a_per_root_error;  ///< a = this * sqrt(wanted error): fitted once to the Cornell box, see `bench/run asked`
   Footprint (*measure)(const Jet<Rgb>&, const View&, const MetricSettings&);
-  void (*settle)(std::span<Record>, std::span<const std::uint32_t> fresh, const MetricSettings&);  ///< null: nothing
+  void (*settle)(const Settling&, std::span<const std::uint32_t> fresh, const MetricSettings&);  ///< null: nothing
 };
 
 /// A named combination. `estimator` is null for the path-traced reference, which caches nothing.
@@ -42,7 +42,7 @@ struct Method {
 
   bool caches() const { return estimator != nullptr; }
   Record make_record(const HemisphereGather& gather, const View& view) const;
-  void settle(std::span<Record> records, std::span<const std::uint32_t> fresh) const;
+  void settle(const Settling& settling, std::span<const std::uint32_t> fresh) const;
 };
 
 std::span<const Estimator> estimators();
@@ -53,6 +53,11 @@ std::span<const Method> methods();
 Method find_method(std::string_view name);
 const Estimator& find_estimator(std::string_view name);
 const Metric& find_metric(std::string_view name);
+
+/// Thresholds end here: a footprint with a greater one is larger than the distances it was derived from.
+inline constexpr float greatest_threshold = 1;
+/// The threshold by which a metric aims at a wanted mean relative error.
+float threshold(const Metric& metric, double error);
 
 /// Throws UsageError, naming both sides, where the metric or its bounds need what the estimator does not give, or where
 /// bounds are set that the metric does not heed. Called before any ray is shot.

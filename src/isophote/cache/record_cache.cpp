@@ -7,9 +7,9 @@
 namespace isophote {
 namespace {
 
-/// A query is in front of a record (it may see what the record cannot) where it lies under the plane of the mean normal
-/// by more than this part of the record's radius. On a convex or concave sphere the mean plane holds both points, so
-/// neighbours serve each other.
+/// A record is in front of a query (it may see what the query cannot, and the other way round) where the query lies
+/// under the plane of the mean normal by more than this part of the record's radius. On a convex or concave sphere the
+/// mean plane holds both points, so neighbours serve each other.
 constexpr float in_front = 0.05f;
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "isophote/cache/octree.h"
-#include "isophote/validity/record.h"
+#include "isophote/validity/neighbour_index.h"
 
 namespace isophote {
 
@@ -20,14 +20,14 @@ struct Query {
 /// Records and the index that finds them. Reading is safe from any number of threads while nobody writes.
 class RecordCache {
  public:
-  explicit RecordCache(const Box& bounds) : bounds_(bounds), octree_(bounds) {}
+  explicit RecordCache(const Box& bounds) : bounds_(bounds), octree_(bounds), neighbours_(bounds) {}
 
   std::span<const Record> records() const { return records_; }
   const Box& bounds() const { return bounds_; }
 
   std::uint32_t insert(const Record& record);
   /// The records, for `settle` to change between insertions. Radii may only shrink: the index does not follow.
-  std::span<Record> settling() { return records_; }
+  Settling settling() { return {records_, neighbours_}; }
   /// Builds the index anew, tight about footprints that have shrunk.
   void reindex();
 
@@ -47,10 +47,11 @@ class RecordCache {
   Box bounds_;
   std::vector<Record> records_;
   Octree octree_;
+  NeighbourIndex neighbours_;
 };
 
 /// The error of using `record` at (position, normal), as its footprint measures it: under 1 inside. Infinite where the
-/// query lies in front of the record [Ward, Rubinstein, Clear 1988] or on the other side of the surface.
+/// record lies in front of the query [Ward, Rubinstein, Clear 1988] or on the other side of the surface.
 float footprint_error(const Record& record, const Vec3& position, const Vec3& normal);
 
 /// The weight for an error in [0, 1).

@@ -30,10 +30,11 @@ ParallelFor thread_for(int threads) {
         next = count;
       }
     };
-    std::vector<std::thread> crew;
-    for (int i = 1; i < threads; ++i) crew.emplace_back(work);
-    work();
-    for (auto& t : crew) t.join();
+    {
+      std::vector<std::jthread> crew;  // joined also where starting another one fails
+      for (int i = 1; i < threads; ++i) crew.emplace_back(work);
+      work();
+    }
     if (failure) std::rethrow_exception(failure);
   };
 }

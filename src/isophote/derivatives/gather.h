@@ -13,13 +13,18 @@ namespace isophote {
 /// What one ray of a gather saw.
 struct GatherSample {
   Vec3 direction;             ///< unit, world space, away from the record
-  float distance = infinity;  ///< to the nearest surface; infinity: the sky
-  Rgb radiance;               ///< arriving along the ray
+  float distance = infinity;  ///< to the nearest surface, scene units, above 0; infinity: the sky
+  Rgb radiance;               ///< arriving along the ray, finite
   Vec3 normal;                ///< unit normal of that surface, facing the record
   std::uint32_t surface = 0;  ///< which surface: samples of equal id lie on one mesh
+
+  /// Of a sample that was not taken, its direction being under the surface on which the record lies: black, but with no
+  /// edge against its neighbours that a step to the side could move.
+  static constexpr std::uint32_t own_surface = 0xffffffff;
 };
 
-/// What a record sees: one sample per stratum of the hemisphere above `position`, in the order of `strata`.
+/// What a record sees: one sample per stratum of the hemisphere above `position`, in the order of `strata`, as many as
+/// that has.
 struct HemisphereGather {
   Vec3 position;
   Frame frame;  ///< azimuth 0 along u, the pole along n

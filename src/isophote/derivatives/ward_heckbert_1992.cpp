@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "isophote/core/check.h"
+
 namespace isophote {
 namespace {
 
@@ -56,6 +58,7 @@ Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeight
 /// The radiance step from `from` to `to` over the wall between them, over the wall's distance: the nearer of the two,
 /// since it is the nearer surface that covers and uncovers the other. Between two samples of the sky nothing moves.
 Rgbd step(const GatherSample& from, const GatherSample& to) {
+  if (from.surface == GatherSample::own_surface || to.surface == GatherSample::own_surface) return {};
   return (Rgbd(to.radiance) - Rgbd(from.radiance)) / static_cast<double>(std::min(from.distance, to.distance));
 }
 
@@ -79,6 +82,7 @@ Gradient<Rgb> translational_gradient(const HemisphereGather& gather) {
 }  // namespace
 
 Jet<Rgb> irradiance(const HemisphereGather& gather) {
+  ISOPHOTE_CHECK(gather.samples.size(), ==, static_cast<std::size_t>(gather.strata.size()));
   Rgbd sum;
   double inverse_distances = 0;
   for (const GatherSample& sample : gather.samples) {

@@ -1,6 +1,7 @@
 #include "isophote/integrate/build.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "isophote/integrate/render.h"
@@ -14,8 +15,8 @@ constexpr std::size_t batch_size = 64;
 /// A round is filled up to this size with points nearer to each other than they should be, rather than leave threads
 /// idle.
 constexpr std::size_t least_batch = 8;
-/// Passes over all pixels end when one finds fewer than this part of them uncovered.
-constexpr double good_coverage = 1e-3;
+/// Passes over all pixels, one sample each, end when one finds fewer than this part of them uncovered.
+constexpr double good_coverage = 1e-4;
 constexpr int most_passes = 16;
 
 /// An uncovered point of the picture. `reach` is the radius that a record here is expected to have: that of the record
@@ -45,13 +46,13 @@ class Builder {
     int stride = 1;
     while (stride * 16 <= std::min(job_.width, job_.height) && stride < 64) stride *= 2;
     for (; stride > 1 && !report_.cancelled; stride /= 2) {
-      begin_level();
+      begin_level(1 + std::countr_zero(static_cast<unsigned>(stride)));
       cover(uncovered(stride, 0));
       if (job_.progress.preview) job_.progress.preview(coarse_picture(job_, cache_, stride));
     }
     const double pixels = static_cast<double>(job_.width) * job_.height;
     for (int pass = 0; pass < most_passes && !report_.cancelled; ++pass) {
-      begin_level();
+      begin_level(2);
       std::vector<Candidate> left = uncovered(1, pass % job_.samples);
       ++report_.passes;
       const bool enough = static_cast<double>(left.size()) < good_coverage * pixels;
@@ -64,13 +65,38 @@ class Builder {
   }
 
  private:
-  /// How much work is left is not known before it is done: each level is taken for a quarter of what is left.
-  void begin_level() {
+  /// How much work is left is not known before it is done. Levels of a picture take about equally many records, the
+  /// finer ones, which have more places to look at, being better covered from the start: each has one part in as many
+  /// as there are levels `left`, itself counted.
+  void begin_level(int left) {
     done_ += share_;
-    share_ = (1 - done_) / 4;
+    share_ = (1 - done_) / left;
   }
 
-  /// The uncovered points that sample `sample` of every stride-th pixel sees, ordered by rank.
+  void add_uncovered(const FirstPoint& seen, std::uint64_t rank, std::vector<Candidate>& found) const {
+    const std::optional<Place> place = place_of(job_, seen);
+    if (!place || cache_.covers({place->position, place->normal, place->normal})) return;
+    Candidate candidate{*place, rank};
+    cache_.visit_near(place->position, [&](const Record& record) { candidate.meet(record); });
+    found.push_back(candidate);
+  }
+
+  /// Are reflections here worth records of their own? Where they are faint, the few samples behind them that no record
+  /// covers may as well be paths.
+  static bool shines(const FirstPoint& seen) {
+    if (!seen.point || !seen.point->bsdf.has_glossy()) return false;
+    const Bsdf& bsdf = seen.point->bsdf;
+    return max_component(specular_albedo(bsdf, -dot(seen.direction, bsdf.frame.n))) > 0.25f;
+  }
+  /// What a glossy surface shows: there the final pass reads the cache too.
+  FirstPoint reflected(const FirstPoint& seen, Sampler& stream, RayCounts& counts) const {
+    FirstPoint next = glossy_ray(job_.world, *seen.point, -seen.direction, stream, counts).next;
+    next.path_length += seen.path_length;
+    next.depth += seen.depth + 1;
+    return next;
+  }
+
+  /// The uncovered points that sample `sample` of every stride-th pixel sees, by itself and reflected, ordered by rank.
   std::vector<Candidate> uncovered(int stride, int sample) {
     const auto columns = static_cast<std::size_t>((job_.width + stride - 1 - stride / 2) / stride);
     const auto rows = static_cast<std::size_t>((job_.height + stride - 1 - stride / 2) / stride);
@@ -80,11 +106,9 @@ class Builder {
         const int x = stride / 2 + static_cast<int>(column) * stride, y = stride / 2 + static_cast<int>(row) * stride;
         Sampler stream = job_.sampler(x, y, sample);
         const FirstPoint seen = first_point(job_.world, job_.camera_ray(x, y, stream), true, stream, counts.camera);
-        const std::optional<Place> place = place_of(job_, seen);
-        if (!place || cache_.covers({place->position, place->normal, place->normal})) continue;
-        Candidate candidate{*place, hash(job_.seed, x, y, sample)};
-        cache_.visit_near(place->position, [&](const Record& record) { candidate.meet(record); });
-        found[row].push_back(candidate);
+        std::uint64_t rank = hash(job_.seed, x, y, sample);
+        add_uncovered(seen, rank, found[row]);
+        if (shines(seen)) add_uncovered(reflected(seen, stream, counts), ++rank, found[row]);
       }
     });
     std::vector<Candidate> all;
@@ -139,6 +163,7 @@ class Builder {
     candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(kept), candidates.end());
     candidates.erase(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(first));
     std::vector<Place> places;
+    places.reserve(picked.size());
     for (const Candidate& c : picked) places.push_back(c.place);
     return places;
   }
@@ -151,6 +176,7 @@ class Builder {
       made[i] = make_record(job_, cache_, places[i], base + i, scratch, counts);
     });
     std::vector<std::uint32_t> fresh;
+    fresh.reserve(made.size());
     for (const Record& record : made) fresh.push_back(cache_.insert(record));
     job_.method.settle(cache_.settling(), fresh);
     return fresh;
@@ -168,7 +194,8 @@ std::optional<Place> place_of(const Job& job, const FirstPoint& seen) {
   if (!seen.point || !seen.point->bsdf.has_diffuse() || seen.depth + 1 >= job.world.max_depth) return std::nullopt;
   if (seen.depth > 0 && job.world.max_depth < std::numeric_limits<int>::max()) return std::nullopt;  // see shade()
   const SurfacePoint& p = *seen.point;
-  return Place{p.position, p.geometric_normal, p.shading_normal, job.pixel_footprint(seen.path_length)};
+  const float pixel = job.pixel_footprint(seen.path_length);
+  return Place{p.position, p.geometric_normal, p.shading_normal, pixel, p.offset, p.medium};
 }
 
 Record make_record(const Job& job, const RecordCache& cache, const Place& place, std::size_t id,

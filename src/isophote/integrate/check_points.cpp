@@ -11,24 +11,21 @@ namespace isophote {
 namespace {
 
 constexpr int rays_per_point = 3200;
-constexpr int fewest = 16, most = 1024;
+constexpr int fewest = 40, most = 1024;    // of fewer, the 95th percentile would be the largest
 constexpr std::size_t between_stops = 64;  // points, after which the host is asked whether to go on
 
 struct CheckPoint {
   bool valid = false;
-  double cached = 0, reference = 0, standard_error = 0;
+  double cached = 0, reference = 0, noise = 0;
 };
 
-/// Standard error of the mean over strata, from half the squared differences of neighbours in azimuth.
-double standard_error(const HemisphereGather& gather) {
-  const Strata& s = gather.strata;
-  double sum = 0;
-  for (int j = 0; j < s.polar; ++j)
-    for (int k = 0; k < s.azimuthal; ++k) {
-      const double step = luminance(gather.at(j, k).radiance - gather.at(j, (k + 1) % s.azimuthal).radiance);
-      sum += step * step / 2;
-    }
-  return std::numbers::pi / s.size() * std::sqrt(sum);
+/// Irradiance (luminance) at a place by a path-traced gather of half the rays of a point.
+double half_reference(const Job& job, const Place& place, std::uint64_t key, RayCounts& counts) {
+  HemisphereGather gather;
+  gather_hemisphere(job.world, nullptr, place, Strata::about(rays_per_point / 2), key, gather, counts);
+  Rgbd sum;
+  for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
+  return luminance(sum) * std::numbers::pi / gather.strata.size();
 }
 
 /// A random visible point that the cache covers, and what a path-traced gather finds there.
@@ -43,12 +40,10 @@ CheckPoint check_point(const Job& job, const RecordCache& cache, std::size_t ind
   if (const std::optional<Place> place = place_of(job, seen)) {
     // Without the normal map: the gather's hemisphere is about the interpolated normal.
     if (const auto cached = cache.interpolate({place->position, place->normal, place->normal})) {
-      HemisphereGather gather;
-      gather_hemisphere(job.world, nullptr, *place, Strata::about(rays_per_point), hash(key, index), gather, rays);
-      Rgbd sum;
-      for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
-      result = {true, luminance(Rgbd(*cached)), luminance(sum) * std::numbers::pi / gather.strata.size(),
-                standard_error(gather)};
+      const double a = half_reference(job, *place, hash(key, index, 0), rays);
+      const double b = half_reference(job, *place, hash(key, index, 1), rays);
+      // Half the difference of two is as wide as their mean's error, whatever strata and paths have in common.
+      result = {true, luminance(Rgbd(*cached)), (a + b) / 2, std::abs(a - b) / 2};
     }
   }
   counts.check += rays.total();
@@ -68,7 +63,7 @@ MeasuredError summary(const std::vector<CheckPoint>& points) {
     const double scale = p.reference + floor;
     errors.push_back(scale > 0 ? std::abs(p.cached - p.reference) / scale : (p.cached == 0 ? 0.0 : 1.0));
     error.mean += errors.back() / error.points;
-    error.noise += scale > 0 ? p.standard_error / scale / error.points : 0;
+    error.noise += scale > 0 ? p.noise / scale / error.points : 0;
   }
   std::sort(errors.begin(), errors.end());
   error.median = errors[errors.size() / 2];
@@ -82,19 +77,23 @@ MeasuredError summary(const std::vector<CheckPoint>& points) {
 MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget) {
   std::vector<CheckPoint> points(fewest);
   RayCounts rays;
+  std::size_t total = most;  // not known before the first points have been measured
   const auto measure = [&](std::size_t from) {
     for (; from < points.size() && !job.progress.stop(); from += between_stops) {
       rays += for_each(
           job.parallel, std::min(between_stops, points.size() - from), 1,
           [&](std::size_t i, RayCounts& counts) { points[from + i] = check_point(job, cache, from + i, counts); });
-      job.progress.tell("check", static_cast<double>(from) / static_cast<double>(points.size()));
+      const std::size_t done = std::min(points.size(), from + between_stops);
+      job.progress.tell("check", static_cast<double>(done) / static_cast<double>(total));
     }
   };
   measure(0);
   const double each = std::max(1.0, static_cast<double>(rays.check) / fewest);
   const auto wanted = std::clamp(static_cast<double>(ray_budget) / each, double{fewest}, double{most});
-  points.resize(static_cast<std::size_t>(wanted));
+  total = static_cast<std::size_t>(wanted);
+  points.resize(total);
   measure(fewest);
+  job.progress.tell("check", 1);
   MeasuredError error = summary(points);
   error.rays = rays;
   return error;

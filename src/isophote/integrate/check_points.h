@@ -10,12 +10,12 @@ struct MeasuredError {
   int points = 0;  ///< 0: nothing could be measured, the rest means nothing
   double mean = 0, median = 0, p95 = 0;
   double bias = 0;   ///< (mean E - mean E_ref) / mean E_ref
-  double noise = 0;  ///< mean standard error of E_ref itself, in the same measure: `mean` contains it
+  double noise = 0;  ///< mean error of E_ref itself, in the same measure: what `mean` would be for a perfect cache
   RayCounts rays;
 };
 
 /// Compares the cache with path-traced gathers at random visible points, as many as `ray_budget` rays pay for, but no
-/// fewer than 16 and no more than 1024.
+/// fewer than 40 and no more than 1024.
 MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget);
 
 }  // namespace isophote

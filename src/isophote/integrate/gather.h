@@ -10,8 +10,10 @@ namespace isophote {
 struct Place {
   Vec3 position;
   Vec3 geometric_normal;
-  Vec3 normal;      ///< interpolated: the hemisphere is about it
-  float pixel = 0;  ///< length a pixel spans there
+  Vec3 normal;       ///< interpolated: the hemisphere is about it
+  float pixel = 0;   ///< length a pixel spans there
+  float offset = 0;  ///< SurfacePoint::offset
+  Rgb medium{};      ///< SurfacePoint::medium
 };
 
 /// One ray into each stratum of the hemisphere above `place`. Radiance is a path's, or, where `cache` is not null and

@@ -35,7 +35,7 @@ Seen shade_sample(const Job& job, const RecordCache* cache, const Ray& ray, cons
     const Scattered path = scatter(job.world, point, wo, seen.depth, stream, counts);
     light = {path.direct, path.indirect, path.irradiance, true};
   } else if (uncovered == Uncovered::skip && point.bsdf.has_diffuse() && !cache->covers(query_at(point))) {
-    return {};
+    return {{}, false};  // nothing is known here, not even the direct light: alpha 0
   } else {
     light = shade(job.world, *cache, point, wo, seen.depth, stream, counts);
   }
@@ -99,8 +99,10 @@ class FinalPass {
 
   /// Rows that have nothing yet get one sample of what is covered.
   void complete() {
-    for (int y = 0; y < job_.height; ++y)
-      if (film_.samples(y) == 0) rows(y, 1, 0, 1, Uncovered::skip);
+    for (int top = 0, end = 0; top < job_.height; top = end + 1) {
+      for (end = top; end < job_.height && film_.samples(end) == 0;) ++end;
+      if (end > top) rows(top, end - top, 0, 1, Uncovered::skip);
+    }
   }
 
   const Job& job_;

@@ -10,7 +10,9 @@ class RecordCache;
 /// What the final pass took.
 struct RenderReport {
   RayCounts rays;
-  std::uint64_t uncovered = 0;  ///< samples that no record served and that went on as paths
+  /// Samples for which, behind glossy surfaces too, a record was missing: a path went on instead, or, after the host
+  /// cancelled, the sample was left out.
+  std::uint64_t uncovered = 0;
   bool cancelled = false;
 };
 

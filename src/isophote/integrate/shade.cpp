@@ -6,47 +6,62 @@
 namespace isophote {
 namespace {
 
-/// The chance with which a glossy ray is followed: always from the camera, by weight of the lobe further on.
-float glossy_chance(const SurfacePoint& point, const Vec3& wo, int depth) {
+/// The chance with which a glossy ray is followed: always from the camera, by what it can bring further on, and after
+/// some events never surely, or paths between bright metals would not end.
+float glossy_chance(const SurfacePoint& point, const Vec3& wo, const Rgb& throughput, int depth, int events) {
+  constexpr int sure_events = 3;
   if (depth == 0) return 1;
-  return std::clamp(4 * max_component(specular_albedo(point.bsdf, dot(wo, point.bsdf.frame.n))), 0.1f, 1.0f);
+  const Rgb albedo = specular_albedo(point.bsdf, dot(wo, point.bsdf.frame.n));
+  return std::clamp(4 * max_component(throughput * albedo), 0.1f, events < sure_events ? 1.0f : 0.95f);
 }
 
-void add_glossy(const World& world, const RecordCache& cache, const SurfacePoint& point, const Vec3& wo, int depth,
-                Sampler& sampler, RayCounts& counts, Shaded& result) {
-  const float chance = glossy_chance(point, wo, depth);
-  if (sampler.next() >= chance) return;
-  const GlossyRay ray = glossy_ray(world, point, wo, sampler, counts);
-  result.direct += ray.direct / chance;
-  Rgb arriving = ray.next.emission;
-  const int next_depth = depth + 1 + ray.next.depth;
-  if (ray.next.point && next_depth < world.max_depth) {
-    const Shaded next = shade(world, cache, *ray.next.point, -ray.next.direction, next_depth, sampler, counts);
-    arriving += ray.next.throughput * (next.direct + next.indirect);
-  }
-  result.indirect += ray.weight * arriving / chance;
+/// What leaves one point towards `wo`: of all lobes where a path took over (`whole`), else of the diffuse lobe.
+struct Left {
+  Shaded light;
+  bool whole = false;
+};
+
+Left shade_without_glossy(const World& world, const RecordCache& cache, const SurfacePoint& point, const Vec3& wo,
+                          int depth, Sampler& sampler, RayCounts& counts) {
+  const auto path = [&](bool covered) -> Left {
+    const Scattered s = scatter(world, point, wo, depth, sampler, counts);
+    return {{s.direct, s.indirect, s.irradiance, covered}, true};
+  };
+  if (depth > 0 && world.max_depth < std::numeric_limits<int>::max()) return path(true);
+  if (!point.bsdf.has_diffuse()) return {};
+  const std::optional<Rgb> irradiance = cache.interpolate(query_at(point));
+  if (!irradiance) return path(false);
+  return {{direct_diffuse(world, point, wo, sampler, counts), diffuse_albedo(point.bsdf, wo) * *irradiance / pi,
+           *irradiance, true}};
 }
 
 }  // namespace
 
 Shaded shade(const World& world, const RecordCache& cache, const SurfacePoint& point, const Vec3& wo, int depth,
              Sampler& sampler, RayCounts& counts) {
-  Shaded result;
-  if (depth > 0 && world.max_depth < std::numeric_limits<int>::max()) {
-    const Scattered path = scatter(world, point, wo, depth, sampler, counts);
-    return {path.direct, path.indirect, path.irradiance, true};
+  Left left = shade_without_glossy(world, cache, point, wo, depth, sampler, counts);
+  Shaded result = left.light;
+  const SurfacePoint* at = &point;
+  Vec3 towards = wo;
+  Rgb throughput{1.0f};
+  GlossyRay ray;
+  for (int events = 0; !left.whole && at->bsdf.has_glossy(); ++events) {
+    const float chance = glossy_chance(*at, towards, throughput, depth, events);
+    if (!(sampler.next() < chance)) break;
+    throughput = throughput / chance;
+    ray = glossy_ray(world, *at, towards, sampler, counts);
+    (events == 0 ? result.direct : result.indirect) += throughput * ray.direct;
+    throughput *= ray.weight;
+    result.indirect += throughput * ray.next.emission;
+    throughput *= ray.next.throughput;
+    depth += 1 + ray.next.depth;
+    if (!ray.next.point || depth >= world.max_depth || is_black(throughput)) break;
+    at = &*ray.next.point;
+    towards = -ray.next.direction;
+    left = shade_without_glossy(world, cache, *at, towards, depth, sampler, counts);
+    result.indirect += throughput * (left.light.direct + left.light.indirect);
+    result.covered = result.covered && left.light.covered;
   }
-  if (point.bsdf.has_diffuse()) {
-    const std::optional<Rgb> irradiance = cache.interpolate(query_at(point));
-    if (!irradiance) {
-      const Scattered path = scatter(world, point, wo, depth, sampler, counts);
-      return {path.direct, path.indirect, path.irradiance, false};
-    }
-    result.direct = direct_diffuse(world, point, wo, sampler, counts);
-    result.irradiance = *irradiance;
-    result.indirect = diffuse_albedo(point.bsdf, wo) * *irradiance / pi;
-  }
-  if (point.bsdf.has_glossy()) add_glossy(world, cache, point, wo, depth, sampler, counts, result);
   return result;
 }
 

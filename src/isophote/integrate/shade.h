@@ -8,7 +8,7 @@ namespace isophote {
 /// Light scattered at a point towards a viewer, its diffuse indirect part read from a cache. Split as `Scattered` is.
 struct Shaded {
   Rgb direct, indirect, irradiance;
-  bool covered = true;  ///< false: no record served, the sample went on as one unbiased path
+  bool covered = true;  ///< false: somewhere no record served, and the sample went on as one unbiased path
 };
 
 /// Direct light by light sampling; the diffuse lobe's indirect light from `cache`; the glossy lobe by one ray, at whose

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "isophote/cache/catalogue.h"
+
 namespace isophote {
 namespace {
 
-constexpr float least_threshold = 1e-3f, greatest_threshold = 1.4f;
+const double least_log_a = std::log(1e-3), greatest_log_a = std::log(static_cast<double>(greatest_threshold));
 constexpr int most_tries = 10;
 constexpr double close_enough = 0.02;
 
@@ -19,12 +21,15 @@ Solved build_with_records(Job& job, std::size_t wanted) {
   };
   std::optional<Try> above, below;  // the nearest with too many records and with too few
   std::optional<Solved> best;
-  double best_miss = 0, log_a = std::log(job.method.settings.a);
+  double best_miss = 0, log_a = std::log(job.method.settings.a), last_log_a = 0;
   float best_a = job.method.settings.a;
   RayCounts rays;
   const double target = std::log(static_cast<double>(std::max<std::size_t>(wanted, 1)));
   for (int i = 0; i < most_tries; ++i) {
-    job.method.settings.a = std::clamp(static_cast<float>(std::exp(log_a)), least_threshold, greatest_threshold);
+    log_a = std::clamp(log_a, least_log_a, greatest_log_a);
+    if (i > 0 && log_a == last_log_a) break;  // no threshold gives as many, or as few
+    last_log_a = log_a;
+    job.method.settings.a = static_cast<float>(std::exp(log_a));
     Solved attempt{empty_cache(job), {}};
     attempt.report = build_in_rounds(job, attempt.cache);
     rays += attempt.report.rays;

@@ -7,7 +7,8 @@
 namespace isophote {
 
 /// Builds caches with different thresholds until one has about `wanted` records (within 2%, or the nearest of ten
-/// tries), and leaves the threshold in job.method. Tries cost full builds.
+/// tries; fewer where no threshold gives as many or as few), and leaves the threshold in job.method. Tries cost full
+/// builds.
 struct Solved {
   RecordCache cache;
   BuildReport report;  ///< of all tries together; rounds of the one kept

@@ -20,9 +20,15 @@ float gradient_radius(const Jet<Rgb>& jet) {
   return radius;
 }
 
-/// What the limit on extrapolation needs to know is the radius that the metric alone would give.
-void settle_gradient(Record& record, float a) {
-  limit_gradient(record, split_sphere_radius(record.footprint.unscaled, a));
+/// Of a raised radius, what its height over and under the surface keeps at least: enough for uneven ground.
+constexpr float least_height = 0.25f;
+
+/// Where a lower bound has raised the radius above what the metric alone would give, the record reaches further along
+/// its surface only: what lies above, on a step or a table, may be lit quite otherwise.
+void settle_raised(Record& record, float a) {
+  const float natural = split_sphere_radius(record.footprint.unscaled, a), radius = record.footprint.radius;
+  limit_gradient(record, natural);
+  if (natural < radius) record.footprint.flatten(record.normal, std::max(natural, least_height * radius));
 }
 
 void shrink(Record& record, float unscaled, float a) {
@@ -30,36 +36,19 @@ void shrink(Record& record, float unscaled, float a) {
   record.footprint.resize(split_sphere_radius(unscaled, a));
 }
 
-/// What one record lets another that faces alike have: no more than its own radius and their distance. Infinite where
-/// it sets no limit under `unscaled`, which is told without a root.
-float limit_by(const Record& neighbour, const Vec3& position, const Vec3& normal, float unscaled) {
-  const float room = unscaled - neighbour.footprint.unscaled;
-  const Vec3 between = position - neighbour.position;
-  if (!(room > 0) || length_squared(between) >= room * room || dot(normal, neighbour.normal) <= 0)
-    return std::numeric_limits<float>::infinity();
-  return neighbour.footprint.unscaled + length(between);
-}
-
-/// Lets `neighbour` limit `record`.
-void clamp(Record& record, const Record& neighbour, float a) {
-  const float limit = limit_by(neighbour, record.position, record.normal, record.footprint.unscaled);
-  if (limit < record.footprint.unscaled) shrink(record, limit, a);
-}
-
-/// A fresh record takes its own limit from all its neighbours first, and then limits them: among records that face alike
-/// the outcome is the largest radii that keep the bound, whatever the order. Each pass over the earlier records, of
-/// which there may be many, serves all the fresh ones, of which there are few.
-void clamp_to_neighbours(std::span<Record> earlier, std::span<Record> fresh, float a) {
-  for (const Record& other : earlier)
-    for (Record& record : fresh) clamp(record, other, a);
-  for (std::size_t i = 0; i < fresh.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) clamp(fresh[i], fresh[k], a);
-    for (std::size_t k = 0; k < i; ++k) clamp(fresh[k], fresh[i], a);
-  }
-  for (Record& other : earlier) {
-    const float before = other.footprint.unscaled;
-    for (const Record& record : fresh) clamp(other, record, a);
-    if (other.footprint.unscaled < before) settle_gradient(other, a);
+/// A fresh record takes its own limit from all its neighbours first, and then limits them: among records that face
+/// alike the outcome is the largest radii that keep the bound, whatever the order.
+void clamp_to_neighbours(const Settling& settling, std::uint32_t fresh, float a) {
+  const auto& [records, neighbours] = settling;
+  Record& record = records[fresh];
+  const float unscaled = record.footprint.unscaled;
+  if (const float limit = neighbours.limit(records, record.position, record.normal, unscaled); limit < unscaled)
+    shrink(record, limit, a);
+  neighbours.insert(records);
+  for (const std::uint32_t id : neighbours.limited(records, record)) {
+    shrink(records[id], record.footprint.unscaled + length(records[id].position - record.position), a);
+    settle_raised(records[id], a);
+    neighbours.lowered(records, id);
   }
 }
 
@@ -83,11 +72,15 @@ Footprint bounded_split_sphere(const Jet<Rgb>& jet, const View& view, float a, c
   return footprint;
 }
 
-void settle_bounded(std::span<Record> records, std::span<const std::uint32_t> fresh, float a,
+void settle_bounded(const Settling& settling, std::span<const std::uint32_t> fresh, float a,
                     const RadiusBounds& bounds) {
-  if (bounds.neighbours && !fresh.empty())
-    clamp_to_neighbours(records.first(fresh.front()), records.subspan(fresh.front(), fresh.size()), a);
-  for (const std::uint32_t i : fresh) settle_gradient(records[i], a);
+  for (const std::uint32_t id : fresh) {
+    if (bounds.neighbours) {
+      while (settling.neighbours.size() < id) settling.neighbours.insert(settling.records);
+      clamp_to_neighbours(settling, id, a);
+    }
+    settle_raised(settling.records[id], a);
+  }
 }
 
 }  // namespace isophote

@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "isophote/validity/record.h"
+#include "isophote/validity/neighbour_index.h"
 
 namespace isophote {
 
@@ -24,10 +24,11 @@ struct RadiusBounds {
 /// The split-sphere metric with its radius bounded. Pixel bounds win over bounds in scene units, lower over upper ones.
 Footprint bounded_split_sphere(const Jet<Rgb>& jet, const View& view, float a, const RadiusBounds& bounds);
 
-/// What records do to each other and to themselves once inserted: neighbour clamping [Krivanek 2006], where asked, and
-/// the limit on extrapolation. `fresh` are the ids of the newest records, ascending and without gaps, which the others
-/// have not met. Costs one distance for each fresh record and earlier one.
-void settle_bounded(std::span<Record> records, std::span<const std::uint32_t> fresh, float a,
+/// What records do to each other and to themselves once inserted: neighbour clamping [Krivanek 2006], where asked; and
+/// where a lower bound raised a radius above what the metric gives, that reach holds along the surface only, and
+/// extrapolation is limited. `fresh` are the ids of the newest records, ascending and without gaps, which the others
+/// have not met.
+void settle_bounded(const Settling& settling, std::span<const std::uint32_t> fresh, float a,
                     const RadiusBounds& bounds);
 
 }  // namespace isophote

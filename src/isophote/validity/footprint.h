@@ -34,6 +34,13 @@ struct Footprint {
     return f;
   }
 
+  /// Makes the region of a disk thinner along the unit vector n, where it then ends at `height` <= radius.
+  void flatten(const Vec3& n, float height) {
+    const float base = 1 / (radius * radius), more = 1 / (height * height) - base;
+    shape = {base + more * n.x * n.x, more * n.x * n.y, more * n.x * n.z,
+             base + more * n.y * n.y, more * n.y * n.z, base + more * n.z * n.z};
+  }
+
   /// Scales the region so that its radius is `wanted`, or the nearest of its bounds.
   void resize(float wanted) {
     wanted = std::max(smallest, std::min(largest, wanted));

@@ -6,12 +6,16 @@ namespace isophote {
 
 void limit_gradient(Record& record, float natural_radius) {
   const auto& g = record.jet.translational;
+  const Rgb& value = record.jet.value;
   const float radius = record.footprint.radius;
-  const float change = length(Vec3{luminance(g.x), luminance(g.y), luminance(g.z)}) * radius;
-  const float value = luminance(record.jet.value);
-  const float bounded = change > value ? value / change : 1.0f;
-  record.gradient_scale = std::min(bounded, natural_radius / radius);
-  record.gradient_scale = std::min(1.0f, record.gradient_scale);
+  // A channel that is next to nothing beside the others may change by more than itself: nobody sees it.
+  const float least = 0.05f * luminance(value);
+  float scale = std::min(1.0f, natural_radius / radius);
+  for (int c = 0; c < 3; ++c) {
+    const float change = length(Vec3{g.x[c], g.y[c], g.z[c]}) * radius, room = std::max(value[c], least);
+    if (change > room) scale = std::min(scale, room / change);
+  }
+  record.gradient_scale = scale;
 }
 
 }  // namespace isophote
