@@ -34,15 +34,18 @@ void check_surface(const Scene& scene, const Ray& ray, const Hit& hit) {
 }
 
 /// Light may be infinite where a lamp is met at no distance, but neither negative nor not a number.
+void check_light(const LightSample& sample) {
+  ISOPHOTE_CHECK(sample.pdf, >=, 0);
+  if (sample.pdf == 0) return;
+  ISOPHOTE_CHECK(fuzz::is_unit(sample.direction), ==, true);
+  ISOPHOTE_CHECK(std::min({sample.radiance.r, sample.radiance.g, sample.radiance.b}), >=, 0);
+}
+
 void check_emitters(const Emitters& emitters, const Vec3& from) {
-  if (emitters.empty()) return;
   for (int i = 0; i < 4; ++i) {
     const float u = static_cast<float>(i) / 4;
-    const LightSample sample = emitters.sample(from, u, {0.3f, 0.6f});
-    ISOPHOTE_CHECK(sample.pdf, >=, 0);
-    if (sample.pdf == 0) continue;
-    ISOPHOTE_CHECK(fuzz::is_unit(sample.direction), ==, true);
-    ISOPHOTE_CHECK(std::min({sample.radiance.r, sample.radiance.g, sample.radiance.b}), >=, 0);
+    if (!emitters.empty()) check_light(emitters.sample(from, u, {0.3f, 0.6f}));
+    if (emitters.punctual()) check_light(emitters.sample_punctual(from, u));
   }
 }
 

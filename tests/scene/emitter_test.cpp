@@ -175,20 +175,12 @@ TEST(Emitters, ChooseByPowerAndATenthAlike) {
 TEST(Emitters, TheWeakestIsNotForgottenBesideTheStrongest) {
   Scene scene = two_lamps();
   scene.materials[0].emission = Rgb(1e9f);
-  PunctualLight candle;
-  candle.position = {5, 5, 5};
-  candle.intensity = Rgb(1e-3f);
-  scene.lights.push_back(candle);
   const Emitters emitters(scene);
   int found = 0;
   constexpr int draws = 1 << 12;
-  for (int i = 0; i < draws; ++i) {
-    const LightSample light = emitters.sample({}, static_cast<float>(i) / draws, {0.3f, 0.6f});
-    if (!light.delta) continue;
-    ++found;
-    EXPECT_NEAR(light.pdf, 0.1 / 5, 1e-4);  // four triangles and the candle
-  }
-  EXPECT_NEAR(found / double(draws), 0.1 / 5, 1e-3);
+  for (int i = 0; i < draws; ++i)
+    found += emitters.sample({}, static_cast<float>(i) / draws, {0.3f, 0.6f}).direction.y < 0.5f;
+  EXPECT_NEAR(found / double(draws), 0.1 / 2, 1e-3);  // two of four triangles
 }
 
 TEST(Emitters, TexturedLampIsChosenByItsMeanAndExactAtThePoint) {
@@ -229,39 +221,6 @@ TEST(Emitters, BlendedLampShinesByItsCoverage) {
   scene.materials[0].base_alpha = 0.25f;
   const LightSample s = Emitters(scene).sample({}, 0, {0.3f, 0.6f});
   EXPECT_FLOAT_EQ(s.radiance.r, 1);
-}
-
-TEST(Emitters, PunctualLightsHaveClosedForms) {
-  Scene scene;
-  PunctualLight light;
-  light.position = {0, 2, 0};
-  light.intensity = {8, 4, 2};
-  scene.lights = {light};
-  LightSample s = Emitters(scene).sample({0, 0, 0}, 0.5f, {});
-  EXPECT_TRUE(s.delta && s.sampled_directly);
-  EXPECT_EQ(s.pdf, 1);
-  EXPECT_EQ(s.distance, 2);
-  EXPECT_EQ(s.radiance, (Rgb{2, 1, 0.5f}));
-  EXPECT_EQ(s.direction, (Vec3{0, 1, 0}));
-
-  scene.lights[0].range = 4;  // (1 - (2/4)^4) of it
-  EXPECT_FLOAT_EQ(Emitters(scene).sample({0, 0, 0}, 0.5f, {}).radiance.r, 2 * 15 / 16.0f);
-  EXPECT_EQ(Emitters(scene).sample({0, -3, 0}, 0.5f, {}).pdf, 0);
-
-  scene.lights[0] = {PunctualLight::Kind::directional, "", {}, {0, -1, 0}, Rgb(3.0f)};
-  s = Emitters(scene).sample({5, 6, 7}, 0.5f, {});
-  EXPECT_EQ(s.radiance, Rgb(3.0f));
-  EXPECT_EQ(s.direction, (Vec3{0, 1, 0}));
-  EXPECT_EQ(s.distance, infinity);
-
-  scene.lights[0] = {PunctualLight::Kind::spot, "", {0, 2, 0}, {0, -1, 0}, Rgb(4.0f), 0.2f, 0.6f};
-  const Emitters spot(scene);
-  EXPECT_FLOAT_EQ(spot.sample({0, 0, 0}, 0.5f, {}).radiance.r, 1);
-  const float angle = 0.4f;
-  const Vec3 aside{2 * std::tan(angle), 0, 0};
-  const float edge = (std::cos(angle) - std::cos(0.6f)) / (std::cos(0.2f) - std::cos(0.6f));
-  EXPECT_NEAR(spot.sample(aside, 0.5f, {}).radiance.r, 4 / length_squared(aside - Vec3{0, 2, 0}) * edge * edge, 1e-5);
-  EXPECT_TRUE(is_black(spot.sample({2, 0, 0}, 0.5f, {}).radiance));
 }
 
 TEST(Emitters, PeaksAreOneEmitterHoweverMany) {

@@ -7,6 +7,7 @@
 #include "isophote/apps/statistics.h"
 #include "isophote/apps/threads.h"
 #include "isophote/cache/record_file.h"
+#include "isophote/core/error.h"
 #include "isophote/image/png.h"
 #include "isophote/integrate/record_picture.h"
 #include "isophote/integrate/render.h"

@@ -11,45 +11,12 @@
 #include "isophote/scene/emissive_triangles.h"
 #include "isophote/scene/environment.h"
 #include "isophote/scene/near_grid.h"
+#include "isophote/scene/punctual_lights.h"
 
 namespace isophote {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-float square(float x) { return x * x; }
-
-double power(const PunctualLight& light, double scene_radius) {
-  const double intensity = luminance(Rgbd(light.intensity));
-  switch (light.kind) {
-    case PunctualLight::Kind::point:
-      return 4 * pi * intensity;
-    case PunctualLight::Kind::spot:
-      return 2 * pi * (1 - std::cos(light.outer_cone)) * intensity;
-    case PunctualLight::Kind::directional:
-      return pi * scene_radius * scene_radius * intensity;
-  }
-  return 0;
-}
-
-/// The cone's edge, as KHR_lights_punctual recommends it.
-float spot_falloff(const PunctualLight& light, const Vec3& towards_light) {
-  const float inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
-  return square(
-      std::clamp((dot(light.direction, -towards_light) - outer) / std::max(0.001f, inner - outer), 0.0f, 1.0f));
-}
-
-LightSample sample_punctual(const PunctualLight& light, const Vec3& from) {
-  if (light.kind == PunctualLight::Kind::directional)
-    return {-light.direction, infinity, light.intensity, 1, true, true};
-  const Vec3 offset = light.position - from;
-  const float distance = length(offset);
-  if (!(distance > 0 && distance < light.range)) return {};
-  const Vec3 direction = offset / distance;
-  float falloff = light.range == infinity ? 1.0f : 1 - square(square(distance / light.range));
-  if (light.kind == PunctualLight::Kind::spot) falloff *= spot_falloff(light, direction);
-  return {direction, distance, light.intensity * (falloff / square(distance)), 1, true, true, light.position};
-}
 
 }  // namespace
 
@@ -58,9 +25,8 @@ struct Emitters::Impl {
   void number_triangles();
   void make_tables(std::vector<double> weights);
 
-  // The order of choices: triangles, punctual lights, peaks of the environment, its rest.
-  std::size_t first_light() const { return triangles.size(); }
-  std::size_t peaks() const { return first_light() + scene.lights.size(); }
+  // The order of choices: triangles, peaks of the environment, its rest.
+  std::size_t peaks() const { return triangles.size(); }
   std::size_t rest() const { return peaks() + 1; }
   const AliasTable& table(Among among) const { return among == Among::all ? all : direct; }
 
@@ -74,18 +40,18 @@ struct Emitters::Impl {
   std::vector<std::uint32_t> first_of_mesh;  // into emitter_of; none: the mesh does not emit
   std::vector<std::uint32_t> emitter_of;     // triangle of an emissive mesh -> triangles; none: black
   AliasTable all, direct;
+  PunctualLights punctual;
   NearGrid near;
 };
 
-Emitters::Impl::Impl(const Scene& scene_) : scene(scene_), environment(scene_.environment) {
+Emitters::Impl::Impl(const Scene& scene_) : scene(scene_), environment(scene_.environment), punctual(scene_) {
   const Box bounds = scene.bounds();
   const double radius = bounds.empty() ? 1.0 : 0.5 * bounds.diagonal();
   auto [emissive, weights] = emissive_triangles(scene);
   triangles = std::move(emissive);
   number_triangles();
-  for (const PunctualLight& light : scene.lights) weights.push_back(power(light, radius));
-  if (weights.size() > most)
-    throw UserError("the scene has more than " + std::to_string(most) + " emissive triangles and lights");
+  if (std::max(weights.size(), scene.lights.size()) > most)
+    throw UserError("the scene has more than " + std::to_string(most) + " emissive triangles, or as many lights");
   weights.push_back(pi * radius * radius * environment.peak_power());
   weights.push_back(pi * radius * radius * environment.rest_power());
   make_tables(std::move(weights));
@@ -166,12 +132,15 @@ bool Emitters::empty(Among among) const { return impl_->table(among).empty(); }
 LightSample Emitters::sample(const Vec3& from, float u_choice, Vec2 u, Among among) const {
   const AliasTable& table = impl_->table(among);
   const std::uint32_t i = table.sample(u_choice);
-  LightSample s = i < impl_->first_light() ? impl_->sample_triangle(impl_->triangles[i], from, u)
-                  : i < impl_->peaks()     ? sample_punctual(impl_->scene.lights[i - impl_->first_light()], from)
-                                           : impl_->sample_environment(i, u);
+  LightSample s =
+      i < impl_->peaks() ? impl_->sample_triangle(impl_->triangles[i], from, u) : impl_->sample_environment(i, u);
   s.pdf *= table.probability(i);
   return s;
 }
+
+bool Emitters::punctual() const { return !impl_->punctual.empty(); }
+
+LightSample Emitters::sample_punctual(const Vec3& from, float u) const { return impl_->punctual.sample(from, u); }
 
 float Emitters::triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direction, Among among) const {
   const std::uint32_t first = impl_->first_of_mesh[hit.mesh];

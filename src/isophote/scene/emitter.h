@@ -21,27 +21,34 @@ struct LightSample {
   Vec3 end{};  ///< where a shadow ray ends, for a finite distance: at the light, off its triangle on the side of `from`
 };
 
-/// All that emits, chosen by power, with a tenth of the choice to all alike: emissive triangles (textures averaged over
-/// them), punctual lights and the environment, which is split in two: its peaks (all sun-like texels together) and the
-/// rest. Lamps, punctual lights and peaks are `sampled_directly`: their light scattered once is direct light. The rest
-/// of the environment is not: it is seen by gathers and cached. Never both. The rest is chosen with a chance of at most
-/// 1/2 beside others: power cannot know how much of the sky is hidden, and rays chosen by the BSDF find it too.
+/// All that emits. Emissive triangles (textures averaged over them) and the environment are chosen by power, with a
+/// tenth of the choice to all alike; the environment is split in two: its peaks (all sun-like texels together) and the
+/// rest. Punctual lights are sampled beside them, by themselves. Lamps, punctual lights and peaks are
+/// `sampled_directly`: their light scattered once is direct light. The rest of the environment is not: it is seen by
+/// gathers and cached. Never both. The rest is chosen with a chance of at most 1/2 beside others: power cannot know how
+/// much of the sky is hidden, and rays chosen by the BSDF find it too.
 class Emitters {
  public:
   /// What `sample` chooses among.
   enum class Among : std::uint8_t { all, sampled_directly };
 
-  /// Emissive triangles and punctual lights together: of the 2^24 numbers that the choice is made with, a twentieth (a
+  /// Emissive triangles, and punctual lights: of the 2^24 numbers that the choice is made with, a twentieth (a
   /// tenth, the rest of the environment taking half of all) must leave one to each.
   static constexpr std::size_t most = 3 << 18;
 
   /// `scene` must outlive this. Throws UserError, which names no file, where the scene has more than `most`.
   explicit Emitters(const Scene& scene);
 
+  /// Is there nothing for `sample` to choose from?
   bool empty(Among among = Among::all) const;
-  /// One emitter and one direction towards it; pdf 0 where the emitter does not shine on `from` at all. `empty` must
-  /// not hold.
+  /// One triangle or point of the environment and the direction towards it; pdf 0 where the emitter does not shine on
+  /// `from` at all. `empty` must not hold.
   LightSample sample(const Vec3& from, float u_choice, Vec2 u, Among among = Among::all) const;
+  /// Are there punctual lights?
+  bool punctual() const;
+  /// One of the punctual lights, of which there must be any. Their light and that of `sample` add up.
+  LightSample sample_punctual(const Vec3& from, float u) const;
+
   /// The density (solid angle) with which `sample` gives the direction in which the triangle of `hit` was met. Above 0
   /// wherever the triangle shines on `from`.
   float triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direction, Among among = Among::all) const;

@@ -44,18 +44,22 @@ struct Incident {
   bool sampled_directly = true;
 };
 
-/// False where nothing arrives. `scattered` of the incident light, nothing in its way, decides whether a shadow ray is
-/// worth it.
-template <class Scatter>
-bool sample_light(const World& world, const SurfacePoint& point, float u_choice, Vec2 u, std::uint32_t seed,
-                  Emitters::Among among, RayCounts& counts, Incident& incident, const Scatter& scattered) {
-  if (world.emitters.empty(among)) return false;
-  const LightSample light = world.emitters.sample(point.position, u_choice, u, among);
-  if (!(light.pdf > 0) || is_black(light.radiance) || !scatters_from(point, light.direction)) return false;
-  incident = {light.direction, light.radiance / light.pdf, light.delta ? 0.0f : light.pdf, light.sampled_directly};
-  if (!scattered(incident)) return false;
-  incident.radiance *= light_transmittance(world, point, light, seed, counts);
-  return !is_black(incident.radiance);
+/// Calls add(incident) for what one sample of lamps and environment and one of the punctual lights bring. `scatters` of
+/// the incident light, nothing in its way, decides whether a shadow ray is worth it.
+template <class Scatters, class Add>
+void sample_lights(const World& world, const SurfacePoint& point, float u_choice, Vec2 u, std::uint32_t seed,
+                   Emitters::Among among, RayCounts& counts, const Scatters& scatters, const Add& add) {
+  const auto take = [&](const LightSample& light) {
+    if (!(light.pdf > 0) || is_black(light.radiance) || !scatters_from(point, light.direction)) return;
+    Incident incident{light.direction, light.radiance / light.pdf, light.delta ? 0.0f : light.pdf,
+                      light.sampled_directly};
+    if (!scatters(incident)) return;
+    incident.radiance *= light_transmittance(world, point, light, seed, counts);
+    if (!is_black(incident.radiance)) add(incident);
+  };
+  const Emitters& emitters = world.emitters;
+  if (!emitters.empty(among)) take(emitters.sample(point.position, u_choice, u, among));
+  if (emitters.punctual()) take(emitters.sample_punctual(point.position, u_choice));
 }
 
 /// The density with which light sampling would have taken the direction of a ray that brought `arrival`.
@@ -87,7 +91,6 @@ struct Event {
 void add_light(const World& world, const SurfacePoint& point, const Vec3& wo, const Lobes& lobes, float u_choice,
                Vec2 u, std::uint32_t seed, RayCounts& counts, Event& event) {
   const Bsdf& bsdf = point.bsdf;
-  Incident incident;
   Rgb scattered;
   float irradiance = 0;
   const auto scatter_it = [&](const Incident& light) {
@@ -104,9 +107,11 @@ void add_light(const World& world, const SurfacePoint& point, const Vec3& wo, co
     }
     return !is_black(scattered);
   };
-  if (!sample_light(world, point, u_choice, u, seed, Emitters::Among::all, counts, incident, scatter_it)) return;
-  (incident.sampled_directly ? event.direct : event.rest) += scattered * incident.radiance;
-  if (!incident.sampled_directly) event.rest_irradiance += incident.radiance * irradiance;
+  const auto add = [&](const Incident& light) {
+    (light.sampled_directly ? event.direct : event.rest) += scattered * light.radiance;
+    if (!light.sampled_directly) event.rest_irradiance += light.radiance * irradiance;
+  };
+  sample_lights(world, point, u_choice, u, seed, Emitters::Among::all, counts, scatter_it, add);
 }
 
 Event scatter_once(const World& world, const SurfacePoint& point, const Vec3& wo, int depth, Sampler& sampler,
@@ -185,13 +190,13 @@ Rgb direct_diffuse(const World& world, const SurfacePoint& point, const Vec3& wo
   const auto cosine = [&](const Vec3& wi) { return dot(wi, point.bsdf.frame.n); };
 
   Rgb irradiance;
-  Incident incident;
-  if (sample_light(world, point, u_choice, u_light, seed, among, counts, incident,
-                   [](const Incident&) { return true; })) {
-    const float c = cosine(incident.direction);
-    const float mis = shared && incident.pdf > 0 ? mis_weight(incident.pdf, cosine_hemisphere_pdf(c)) : 1.0f;
-    irradiance += incident.radiance * (c * mis);
-  }
+  const auto add = [&](const Incident& light) {
+    const float c = cosine(light.direction);
+    const float mis = shared && light.pdf > 0 ? mis_weight(light.pdf, cosine_hemisphere_pdf(c)) : 1.0f;
+    irradiance += light.radiance * (c * mis);
+  };
+  sample_lights(
+      world, point, u_choice, u_light, seed, among, counts, [](const Incident&) { return true; }, add);
   const BsdfSample sample = sample_diffuse(point.bsdf, albedo, u_ray);
   if (shared && usable(point, sample)) {
     const Ray ray{offset_origin(point, sample.direction), sample.direction};
@@ -218,15 +223,14 @@ GlossyRay glossy_ray(const World& world, const SurfacePoint& point, const Vec3& 
   const Vec2 u_light = sampler.next2(), u_ray = sampler.next2();
   if (!point.bsdf.has_glossy()) return out;
 
-  Incident incident;
   Rgb scattered;
   const auto scatter_it = [&](const Incident& light) {
     scattered = evaluate_glossy(point.bsdf, wo, light.direction);
     if (light.pdf > 0) scattered *= mis_weight(light.pdf, glossy_pdf(point.bsdf, wo, light.direction));
     return !is_black(scattered);
   };
-  if (sample_light(world, point, u_choice, u_light, sampler.next_bits(), among, counts, incident, scatter_it))
-    out.direct += scattered * incident.radiance;
+  const auto add = [&](const Incident& light) { out.direct += scattered * light.radiance; };
+  sample_lights(world, point, u_choice, u_light, sampler.next_bits(), among, counts, scatter_it, add);
 
   const BsdfSample sample = sample_glossy(point.bsdf, wo, u_ray);
   if (!usable(point, sample)) return out;
