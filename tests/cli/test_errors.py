@@ -1,4 +1,6 @@
+import json
 import os
+import struct
 from pathlib import Path
 
 from program import BOX, SCENES, ProgramTest, quick
@@ -165,6 +167,18 @@ class OneFileForTwo(ProgramTest):
         self.done("render", "mine.glb", *quick("--method", "path", "-o", "sky.exr"))
         self.write("mine.toml", "[scene]\nfile = 'mine.glb'\n[environment]\nfile = 'sky.exr'\n")
         self.refused(2, ("render", "mine.toml", *quick("-o", "sky.exr")), "-o sky.exr", "would overwrite sky.exr")
+
+    def test_buffers_and_textures_are_kept(self):
+        (self.folder / "some.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+        self.write("some.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "buffers": [{"uri": "some.bin", "byteLength": 36}], "images": [{"uri": "wood.png"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}]}))
+        self.write("some.toml", "[scene]\nfile = 'some.gltf'\n")
+        for scene in ("some.gltf", "some.toml"):
+            self.refused(2, ("render", scene, *quick("-o", "wood.png")), "-o wood.png", "would overwrite wood.png")
+            self.refused(2, ("render", scene, *quick("-o", "a.png", "--stats", "some.bin")), "--stats some.bin", "would overwrite")
 
     def test_records_that_are_taken_up(self):
         self.done("render", "mine.glb", *quick("--save-cache", "records"))

@@ -45,7 +45,7 @@ void check_emitters(const Emitters& emitters, const Vec3& from) {
   for (int i = 0; i < 4; ++i) {
     const float u = static_cast<float>(i) / 4;
     if (!emitters.empty()) check_light(emitters.sample(from, u, {0.3f, 0.6f}));
-    if (emitters.punctual()) check_light(emitters.sample_punctual(from, u));
+    for (int k = 0; k < emitters.punctual_samples(); ++k) check_light(emitters.sample_punctual(k, from, u));
   }
 }
 

@@ -64,18 +64,5 @@ TEST(CompletionPass, RowsThatHaveSamplesKeepThem) {
   for (int y = 0; y < 24; ++y) EXPECT_EQ(film.samples(y), 1);
 }
 
-TEST(FilmSurfaces, AnExposureIsChosenFromThem) {
-  Film film(2, 1);
-  PixelSample sky, wall;
-  sky.direct = Rgb(100.0f), wall.direct = Rgb(1.0f);
-  film.add(0, 0, sky);
-  film.finish_row(0, 1);
-  EXPECT_EQ(film.surfaces().pixels, film.color().pixels);
-  wall.alpha = 1;
-  film.add(1, 0, wall);
-  EXPECT_EQ(film.surfaces().at(0, 0), Rgb());
-  EXPECT_EQ(film.surfaces().at(1, 0), Rgb(1.0f));
-}
-
 }  // namespace
 }  // namespace isophote::test

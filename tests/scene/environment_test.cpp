@@ -26,6 +26,20 @@ EnvironmentMap two_suns() {
   return map;
 }
 
+/// A cosine-distributed ray may go to a pole exactly, where a texel has no width; its row may be too dark to be
+/// sampled.
+TEST(Environment, DensitiesAreFiniteAtThePoles) {
+  for (const float pole : {0.0f, 0.01f, 1.0f, 500.0f}) {
+    EnvironmentMap map = grey(4, 4000, 1);
+    for (int x = 0; x < 4; ++x) map.radiance.at(x, 0) = map.radiance.at(x, 3999) = Rgb(pole);
+    const Environment environment(map);
+    for (const Vec3& d : {Vec3{0, 1, 0}, Vec3{0, -1, 0}}) {
+      const Vec2 point = environment.point(d);
+      EXPECT_TRUE(std::isfinite(environment.rest_pdf(point)) && std::isfinite(environment.peak_pdf(point))) << pole;
+    }
+  }
+}
+
 TEST(Environment, PeaksAreSampledByTheirPdf) {
   const EnvironmentMap map = two_suns();
   const Environment environment(map);

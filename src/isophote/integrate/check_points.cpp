@@ -88,6 +88,7 @@ MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64
     }
   };
   measure(0);
+  if (job.progress.stop()) return {};
   const double each = std::max(1.0, static_cast<double>(rays.check) / fewest);
   const auto wanted = std::clamp(static_cast<double>(ray_budget) / each, double{fewest}, double{most});
   total = static_cast<std::size_t>(wanted);

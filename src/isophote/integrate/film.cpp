@@ -40,15 +40,6 @@ RgbImage Film::color() const {
   return sum;
 }
 
-RgbImage Film::surfaces() const {
-  const auto seen = [](const PixelSample& sum) { return sum.alpha > 0; };
-  RgbImage image = color();
-  if (std::none_of(sums_.begin(), sums_.end(), seen)) return image;
-  for (std::size_t i = 0; i < sums_.size(); ++i)
-    if (!seen(sums_[i])) image.pixels[i] = {};
-  return image;
-}
-
 ExrFile Film::exr() const {
   RgbImage normal(width_, height_);
   std::vector<float> alpha(sums_.size()), depth(sums_.size());

@@ -31,9 +31,6 @@ class Film {
   std::uint64_t samples() const;  ///< of all pixels
 
   RgbImage color() const;  ///< direct + indirect
-  /// The colours that an exposure is chosen from: those of pixels that see a surface, the others black; all where none
-  /// does.
-  RgbImage surfaces() const;
   RgbImage irradiance() const { return mean(&PixelSample::irradiance); }
   /// All layers under the project's names: R,G,B,A, direct, indirect, irradiance, albedo, normal, depth.Z.
   ExrFile exr() const;

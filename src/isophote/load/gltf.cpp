@@ -57,8 +57,10 @@ Scene report_as(const std::string& name, const Warn& warn, const Body& body) {
 }
 
 Scene parse_and_convert(std::span<const unsigned char> bytes, const std::filesystem::path& folder, MemoryBudget& budget,
-                        const Warn& warn) {
-  return convert(parse_gltf(bytes, folder, budget, warn), budget, warn);
+                        const Warn& warn, std::vector<std::string>* files) {
+  const GltfFile file = parse_gltf(bytes, folder, budget, warn);
+  if (files) files->insert(files->end(), file.files.begin(), file.files.end());
+  return convert(file, budget, warn);
 }
 
 }  // namespace
@@ -67,15 +69,15 @@ Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& n
                       const std::filesystem::path& folder, std::uint64_t memory, const Warn& warn) {
   return report_as(name, warn, [&](const Warn& warn_once) {
     MemoryBudget budget(memory);
-    return parse_and_convert(bytes, folder, budget, warn_once);
+    return parse_and_convert(bytes, folder, budget, warn_once, nullptr);
   });
 }
 
-Scene load_gltf(const std::string& path, const Warn& warn) {
+Scene load_gltf(const std::string& path, const Warn& warn, std::vector<std::string>* files) {
   return report_as(path, warn, [&](const Warn& warn_once) {
     MemoryBudget budget(physical_memory());
     const std::filesystem::path file(path);
-    return parse_and_convert(read_file(file, budget), file.parent_path(), budget, warn_once);
+    return parse_and_convert(read_file(file, budget), file.parent_path(), budget, warn_once, files);
   });
 }
 

@@ -143,6 +143,15 @@ void check_views(const tinygltf::Model& model) {
   }
 }
 
+/// Of an image that no material asks for, the uri may be bad.
+void add_file(const std::string& uri, GltfFile& file) {
+  try {
+    if (uri.empty()) return;
+    if (const auto path = resource_file(uri, file.folder)) file.files.push_back(path->string());
+  } catch (const UserError&) {
+  }
+}
+
 }  // namespace
 
 GltfFile parse_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& folder, MemoryBudget& budget,
@@ -164,6 +173,8 @@ GltfFile parse_gltf(std::span<const unsigned char> bytes, const std::filesystem:
   sources.budget = &budget;
   file.model = parse_model(document, sources);
   check_views(file.model);
+  for (const std::string& uri : sources.uris) add_file(uri, file);
+  for (const ImageSource& image : file.images) add_file(image.uri, file);
   return file;
 }
 

@@ -23,7 +23,8 @@ struct ImageSource {
 struct GltfFile {
   tinygltf::Model model;
   std::vector<ImageSource> images;
-  std::filesystem::path folder;  ///< against which uris are resolved
+  std::filesystem::path folder;    ///< against which uris are resolved
+  std::vector<std::string> files;  ///< that it names, of buffers and images
 };
 
 /// Parses the bytes of a .gltf or .glb. Throws UserError `PLACE: reason`.

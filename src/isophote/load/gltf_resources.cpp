@@ -50,6 +50,11 @@ std::vector<unsigned char> decode_data_uri(const std::string& uri, MemoryBudget&
 
 }  // namespace
 
+std::optional<std::filesystem::path> resource_file(const std::string& uri, const std::filesystem::path& folder) {
+  if (uri.starts_with("data:")) return std::nullopt;
+  return inside(uri, folder);
+}
+
 std::vector<unsigned char> read_resource(const std::string& uri, const std::filesystem::path& folder,
                                          MemoryBudget& budget) {
   const bool is_data = uri.starts_with("data:");

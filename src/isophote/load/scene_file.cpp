@@ -60,7 +60,11 @@ EnvironmentMap read_environment(const SceneToml::Environment& source, const fs::
 }  // namespace
 
 LoadedScene load_scene(const std::string& path, const Warn& warn) {
-  if (is_gltf(path)) return {load_gltf(path, warn), {}, {}};
+  LoadedScene loaded;
+  if (is_gltf(path)) {
+    loaded.scene = load_gltf(path, warn, &loaded.files);
+    return loaded;
+  }
   if (lower_suffix(path) != ".toml") throw UserError(path + ": is not a scene: a .glb, .gltf or .toml file is needed");
 
   constexpr std::uint64_t largest = 1 << 20;  // bytes; settings are a page
@@ -74,7 +78,9 @@ LoadedScene load_scene(const std::string& path, const Warn& warn) {
   if (!is_gltf(toml.scene.path)) throw UserError(toml.scene.place + ": [scene] file must be a .glb or .gltf file");
 
   const std::string gltf = resolve(toml.scene, folder);
-  LoadedScene loaded{load_gltf(gltf, warn), toml.settings, {gltf}};
+  loaded.files.push_back(gltf);
+  loaded.scene = load_gltf(gltf, warn, &loaded.files);
+  loaded.settings = toml.settings;
   if (toml.environment) {
     loaded.scene.environment = read_environment(*toml.environment, folder);
     loaded.files.push_back(resolve(toml.environment->file, folder));

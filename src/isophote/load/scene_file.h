@@ -17,7 +17,7 @@ struct Setting {
 struct LoadedScene {
   Scene scene;
   std::vector<Setting> settings;
-  std::vector<std::string> files;  ///< read besides `path` itself: those that a TOML file names
+  std::vector<std::string> files;  ///< that the scene names besides `path` itself: glTF, environment, buffers, images
 };
 
 /// Reads a scene: a glTF file, or a TOML file that names one ([scene] file) and adds an environment

@@ -138,9 +138,11 @@ LightSample Emitters::sample(const Vec3& from, float u_choice, Vec2 u, Among amo
   return s;
 }
 
-bool Emitters::punctual() const { return !impl_->punctual.empty(); }
+int Emitters::punctual_samples() const { return impl_->punctual.samples(); }
 
-LightSample Emitters::sample_punctual(const Vec3& from, float u) const { return impl_->punctual.sample(from, u); }
+LightSample Emitters::sample_punctual(int i, const Vec3& from, float u) const {
+  return impl_->punctual.sample(i, from, u);
+}
 
 float Emitters::triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direction, Among among) const {
   const std::uint32_t first = impl_->first_of_mesh[hit.mesh];

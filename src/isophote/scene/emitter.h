@@ -44,10 +44,10 @@ class Emitters {
   /// One triangle or point of the environment and the direction towards it; pdf 0 where the emitter does not shine on
   /// `from` at all. `empty` must not hold.
   LightSample sample(const Vec3& from, float u_choice, Vec2 u, Among among = Among::all) const;
-  /// Are there punctual lights?
-  bool punctual() const;
-  /// One of the punctual lights, of which there must be any. Their light and that of `sample` add up.
-  LightSample sample_punctual(const Vec3& from, float u) const;
+  /// How many samples of the punctual lights to take: each of a few, one of many.
+  int punctual_samples() const;
+  /// The i-th of them. Their light and that of `sample` add up.
+  LightSample sample_punctual(int i, const Vec3& from, float u) const;
 
   /// The density (solid angle) with which `sample` gives the direction in which the triangle of `hit` was met. Above 0
   /// wherever the triangle shines on `from`.

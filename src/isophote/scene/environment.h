@@ -40,7 +40,10 @@ class Environment {
 
  private:
   /// Solid angle of an area element of the unit square, over its area.
-  static float stretch(Vec2 point) { return 2 * pi * pi * std::sin(pi * std::min(point.y, 1 - point.y)); }
+  static float stretch(Vec2 point) {
+    const float least = 0x1p-25f;  // half the grid of random numbers: at the poles themselves it would be 0
+    return 2 * pi * pi * std::sin(pi * std::max(least, std::min(point.y, 1 - point.y)));
+  }
 
   const EnvironmentMap& map_;
   double peak_power_ = 0, rest_power_ = 0;

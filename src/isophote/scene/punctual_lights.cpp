@@ -8,7 +8,9 @@
 namespace isophote {
 namespace {
 
-constexpr std::size_t few = 32;
+constexpr std::size_t few = 4, several = 32;
+/// Of the choice, to all alike: none is so weak beside the others, or so often hidden, that it could not be chosen.
+constexpr double alike = 0.1;
 
 float square(float x) { return x * x; }
 
@@ -51,31 +53,47 @@ PunctualLights::PunctualLights(const Scene& scene) : lights_(scene.lights) {
   const double radius = bounds.empty() ? 1.0 : 0.5 * bounds.diagonal();
   std::vector<double> powers;
   for (const PunctualLight& light : lights_) powers.push_back(power(light, radius));
-  // A tenth of the choice goes to all alike: none is so weak beside the others that it could not be chosen.
   const double mean = std::accumulate(powers.begin(), powers.end(), 0.0) / static_cast<double>(powers.size());
   for (double& p : powers)
-    if (p > 0) p = 0.9 * p + 0.1 * mean;
+    if (p > 0) p = (1 - alike) * p + alike * mean;
   by_power_ = AliasTable(powers);
 }
 
-LightSample PunctualLights::sample(const Vec3& from, float u) const {
-  if (lights_.size() > few) {
-    const std::uint32_t i = by_power_.sample(u);
-    LightSample chosen = sample_one(lights_[i], from);
-    chosen.pdf *= by_power_.probability(i);
-    return chosen;
+int PunctualLights::samples() const {
+  if (by_power_.empty()) return 0;
+  return lights_.size() <= few ? static_cast<int>(lights_.size()) : 1;
+}
+
+LightSample PunctualLights::sample(int i, const Vec3& from, float u) const {
+  if (lights_.size() <= few) return sample_one(lights_[static_cast<std::size_t>(i)], from);
+  if (lights_.size() <= several) return sample_by_irradiance(from, u);
+  const std::uint32_t chosen = by_power_.sample(u);
+  LightSample sample = sample_one(lights_[chosen], from);
+  sample.pdf *= by_power_.probability(chosen);
+  return sample;
+}
+
+LightSample PunctualLights::sample_by_irradiance(const Vec3& from, float u) const {
+  std::array<double, several> weights{};
+  double sum = 0;
+  int shining = 0;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    weights[i] = static_cast<double>(max_component(sample_one(lights_[i], from).radiance));
+    sum += weights[i], shining += weights[i] > 0;
   }
-  std::array<float, few> sums;
-  float sum = 0;
-  for (std::size_t i = 0; i < lights_.size(); ++i)
-    sums[i] = sum += max_component(sample_one(lights_[i], from).radiance);
-  if (!(sum > 0 && sum < infinity)) return {};  // infinite on the very place of a light
-  const auto end = sums.begin() + static_cast<std::ptrdiff_t>(lights_.size());
-  const auto found = std::min(std::upper_bound(sums.begin(), end, u * sum), end - 1);
-  const float below = found == sums.begin() ? 0 : *(found - 1);
-  LightSample chosen = sample_one(lights_[static_cast<std::size_t>(found - sums.begin())], from);
-  chosen.pdf *= (*found - below) / sum;
-  return chosen;
+  if (!(sum > 0 && std::isfinite(sum))) return {};  // infinite on the very place of a light
+  std::size_t chosen = 0;
+  double below = 0, chance = 0;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    if (!(weights[i] > 0)) continue;
+    below += chance;
+    if (chance > 0 && u < below) break;
+    chosen = i;
+    chance = (1 - alike) * weights[i] / sum + alike / shining;
+  }
+  LightSample sample = sample_one(lights_[chosen], from);
+  sample.pdf *= static_cast<float>(chance);
+  return sample;
 }
 
 }  // namespace isophote

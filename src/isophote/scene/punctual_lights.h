@@ -14,13 +14,17 @@ class PunctualLights {
   /// `scene` must outlive this.
   explicit PunctualLights(const Scene& scene);
 
-  bool empty() const { return by_power_.empty(); }
-  /// One light that is not black, chosen by u in [0, 1): among few by the irradiance at `from` that each would give if
-  /// nothing hid it, so that visibility alone makes noise; among more by power. `pdf` is the chance; 0 where none
-  /// shines on `from`.
-  LightSample sample(const Vec3& from, float u) const;
+  /// How many samples to take, whose light adds up: as many as there are lights where they are few, so that none is
+  /// noise beside another; else one.
+  int samples() const;
+  /// The i-th of them at `from`. Where lights are many it is chosen by u in [0, 1): of up to 32 by the irradiance that
+  /// each would give if nothing hid it, of more by power, with a tenth of the choice to all alike. `pdf` is the chance
+  /// of the choice; 0 where the light does not shine on `from`.
+  LightSample sample(int i, const Vec3& from, float u) const;
 
  private:
+  LightSample sample_by_irradiance(const Vec3& from, float u) const;
+
   const std::vector<PunctualLight>& lights_;
   AliasTable by_power_;
 };

@@ -212,14 +212,19 @@ Rgb emission(const Scene& scene, const Hit& hit) {
 }
 
 float ray_offset(const Vec3& position, const Vec3& p, const Vec3& e1, const Vec3& e2, float ray_length) {
+  constexpr float rounding = 0x1p-20f;
   const auto sizes = [](const Vec3& v) { return Vec3{std::abs(v.x), std::abs(v.y), std::abs(v.z)}; };
   const Vec3 across = cross(e1, e2), a = sizes(e1), b = sizes(e2);
-  const float size = length(across);
-  // Each coordinate is rounded, and so are the products that make the normal, which tilts a narrow triangle.
-  const Vec3 products{a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
-  const float along = dot(sizes(across), sizes(p) + a + b) + 0.25f * dot(a + b, products);
-  const float least = max_component(max(a, b)) / 64;  // the rest can be 0 where coordinates are
-  return 0x1p-20f * std::max({max_component(sizes(position)), ray_length, least, size > 0 ? along / size : 0.0f});
+  const float size = length(across), longest = max_component(max(a, b));
+  float offset = std::max({max_component(sizes(position)), ray_length, longest / 64});  // coordinates can be 0
+  if (size > 0) {
+    // Each coordinate is rounded, and so are the products that make the normal, which tilts a narrow triangle: by so
+    // much that of the narrowest only a part of their height is made up for.
+    const Vec3 products{a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
+    const float tilt = 0.25f * dot(a + b, products) / size, height = size / longest;
+    offset = std::max(offset, dot(sizes(across), sizes(p) + a + b) / size + std::min(tilt, height / (4 * rounding)));
+  }
+  return rounding * offset;
 }
 
 Vec3 offset_origin(const SurfacePoint& point, const Vec3& direction) {

@@ -39,8 +39,9 @@ Rgb emission(const Scene& scene, const Hit& hit);
 
 /// The length by which rays keep off the triangle (p, p + e1, p + e2) at `position`, so as not to meet the triangle
 /// itself: more than rounding moves either along the normal, a few units in the last place (2^-24) of the coordinates
-/// there. It knows nothing of the rest of the scene, and scales with units of length. `ray_length` counts for rays
-/// that end there.
+/// there. The normals of triangles some thousand times as long as high are rounded so much that rays would have to keep
+/// further off than the triangle is high: they keep off by up to a quarter of that, and a few may meet it. It knows
+/// nothing of the rest of the scene, and scales with units of length. `ray_length` counts for rays that end there.
 float ray_offset(const Vec3& position, const Vec3& p, const Vec3& e1, const Vec3& e2, float ray_length = 0);
 
 /// Where a ray that leaves `point` towards `direction` starts: off the surface on that side, by point.offset.

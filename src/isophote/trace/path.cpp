@@ -44,8 +44,8 @@ struct Incident {
   bool sampled_directly = true;
 };
 
-/// Calls add(incident) for what one sample of lamps and environment and one of the punctual lights bring. `scatters` of
-/// the incident light, nothing in its way, decides whether a shadow ray is worth it.
+/// Calls add(incident) for what one sample of lamps and environment and those of the punctual lights bring. `scatters`
+/// of the incident light, nothing in its way, decides whether a shadow ray is worth it.
 template <class Scatters, class Add>
 void sample_lights(const World& world, const SurfacePoint& point, float u_choice, Vec2 u, std::uint32_t seed,
                    Emitters::Among among, RayCounts& counts, const Scatters& scatters, const Add& add) {
@@ -59,7 +59,7 @@ void sample_lights(const World& world, const SurfacePoint& point, float u_choice
   };
   const Emitters& emitters = world.emitters;
   if (!emitters.empty(among)) take(emitters.sample(point.position, u_choice, u, among));
-  if (emitters.punctual()) take(emitters.sample_punctual(point.position, u_choice));
+  for (int i = 0; i < emitters.punctual_samples(); ++i) take(emitters.sample_punctual(i, point.position, u_choice));
 }
 
 /// The density with which light sampling would have taken the direction of a ray that brought `arrival`.
@@ -94,6 +94,7 @@ void add_light(const World& world, const SurfacePoint& point, const Vec3& wo, co
   Rgb scattered;
   float irradiance = 0;
   const auto scatter_it = [&](const Incident& light) {
+    scattered = {}, irradiance = 0;
     const float cosine = dot(light.direction, bsdf.frame.n);
     if (lobes.diffuse > 0) {
       const float weight = light.pdf > 0 ? mis_weight(light.pdf, lobes.diffuse * cosine_hemisphere_pdf(cosine)) : 1.0f;
