@@ -2,6 +2,7 @@
 import json
 import statistics
 import subprocess
+import time
 
 from measure import ATRIUM, BUILD, CORNELL, ROOT, View, cost, measured, percent, render, table
 from plot import log_log
@@ -105,6 +106,18 @@ def rays():
             "does nothing else; *gather* reads cached radiance where it hits, *gather_paths* follows paths; *final* looks up the cache. Medians of "
             "7 rounds; the share is paired within each round:\n\n" +
             table(["scene", "part", "million rays a CPU second", "% of bare"], rows))
+
+
+def demo():
+    """What scripts/demo takes once it is built."""
+    before = time.monotonic()
+    subprocess.run([str(ROOT / "scripts" / "demo")], check=True, stdout=subprocess.DEVNULL)
+    wall = time.monotonic() - before
+    stats = json.loads((ROOT / "out" / "demo.json").read_text())
+    return ("## The demo\n\n`scripts/demo` after its build, path tracing for the comparison included:\n\n" +
+            table(["wall s", "of which the cached render", "MB", "asked error", "measured error"],
+                  [[f"{wall:.0f}", f"{stats['wall_seconds']['total']:.0f}", round(stats["peak_memory_bytes"] / 1e6), stats["error"]["asked"],
+                    f"{stats['error']['mean']:.3f}"]]))
 
 
 def memory():
