@@ -20,8 +20,10 @@ TEST(FalseColour, BrightensFromVioletToYellow) {
 }
 
 TEST(FalseColour, ClampsItsArgument) {
-  EXPECT_EQ(false_colour(-3), false_colour(0));
-  EXPECT_EQ(false_colour(7), false_colour(1));
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_FLOAT_EQ(false_colour(-3)[k], false_colour(0)[k]);
+    EXPECT_FLOAT_EQ(false_colour(7)[k], false_colour(1)[k]);
+  }
 }
 
 TEST(ErrorPicture, IsBlueWhereTooDarkAndRedWhereTooBright) {

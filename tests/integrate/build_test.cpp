@@ -111,7 +111,7 @@ TEST(LazyOrder, CoversEverythingWithAboutTheRecordsOfRounds) {
   for (const char* name : {"ward1992", "cached"}) {
     SCOPED_TRACE(name);
     Job job = stage.job(method(name, 0.05), 96, 96, 2);
-    job.strata = Strata::about(100);
+    job.strata = Strata::about(400);
     const Rendered rounds = render_all(job);
     RecordCache cache = empty_cache(job);
     Film film(job.width, job.height);
@@ -127,7 +127,7 @@ TEST(LazyOrder, CoversEverythingWithAboutTheRecordsOfRounds) {
     // Both cover the same samples.
     EXPECT_GT(surplus, 0.6);
     EXPECT_LT(surplus, 1.15);
-    // Both know the same light.
+    // Both know the same light: the deviation of this bias is about half a percent.
     EXPECT_LT(std::abs(compare(film.irradiance(), rounds.film.irradiance()).bias), 0.02);
   }
 }

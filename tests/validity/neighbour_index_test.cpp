@@ -35,7 +35,7 @@ void expect_brute_force(const NeighbourIndex& index, const std::vector<Record>& 
         expected = std::min(expected, other.footprint.unscaled + length(other.position - r.position));
       if (limits(r, other)) limited.push_back(i);
     }
-    EXPECT_EQ(index.limit(records, r.position, r.normal, r.footprint.unscaled), expected);
+    EXPECT_FLOAT_EQ(index.limit(records, r.position, r.normal, r.footprint.unscaled), expected);
     std::vector<std::uint32_t> found = index.limited(records, r);
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, limited);
