@@ -21,8 +21,8 @@ TEST(FalseColour, BrightensFromVioletToYellow) {
 
 TEST(FalseColour, ClampsItsArgument) {
   for (int k = 0; k < 3; ++k) {
-    EXPECT_FLOAT_EQ(false_colour(-3)[k], false_colour(0)[k]);
-    EXPECT_FLOAT_EQ(false_colour(7)[k], false_colour(1)[k]);
+    EXPECT_NEAR(false_colour(-3)[k], false_colour(0)[k], 1e-5f);
+    EXPECT_NEAR(false_colour(7)[k], false_colour(1)[k], 1e-5f);
   }
 }
 
