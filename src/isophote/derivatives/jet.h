@@ -1,6 +1,7 @@
 #pragma once
 
 #include "isophote/core/rgb.h"
+#include "isophote/core/sym3.h"
 #include "isophote/core/vec.h"
 
 namespace isophote {
@@ -28,6 +29,7 @@ struct Jet {
   V value{};
   Gradient<V> translational;  ///< the position moves, the normal stays
   Gradient<V> rotational;     ///< the normal turns, the position stays
+  Sym3 hessian;               ///< of luminance, per square metre, in the tangent plane; zero where none is estimated
   DistanceStats distances;
 };
 

@@ -3,35 +3,12 @@
 #include <numbers>
 
 #include "isophote/core/check.h"
+#include "isophote/derivatives/tangent.h"
 
 namespace isophote {
 namespace {
 
 constexpr double half_turn = std::numbers::pi;
-
-struct Azimuth {
-  double cos, sin;
-};
-Azimuth azimuth(const Strata& strata, double k) {
-  const double phi = strata.azimuth(k);
-  return {std::cos(phi), std::sin(phi)};
-}
-
-/// A tangential gradient in the local frame, turned into world space.
-struct TangentGradient {
-  Rgbd u, v;
-
-  void add(const Azimuth& direction, const Rgbd& amount) { u += amount * direction.cos, v += amount * direction.sin; }
-  /// Adds along the direction a quarter turn ahead, that of growing azimuth.
-  void add_across(const Azimuth& direction, const Rgbd& amount) {
-    u -= amount * direction.sin, v += amount * direction.cos;
-  }
-
-  Gradient<Rgb> to_world(const Frame& frame) const {
-    const Framed f(frame);
-    return {Rgb(u * f.u.x + v * f.v.x), Rgb(u * f.u.y + v * f.v.y), Rgb(u * f.u.z + v * f.v.z)};
-  }
-};
 
 double rotation_weight(const Strata& s, int j, RotationWeights weights) {
   if (weights == RotationWeights::classical) {
@@ -42,6 +19,8 @@ double rotation_weight(const Strata& s, int j, RotationWeights weights) {
   return 2 * std::sin(half_turn / s.azimuthal) *
          ((outer - inner) / 2 - (std::sin(2 * outer) - std::sin(2 * inner)) / 4);
 }
+
+}  // namespace
 
 Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeights weights) {
   const Strata& s = gather.strata;
@@ -54,6 +33,8 @@ Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeight
   for (int k = 0; k < s.azimuthal; ++k) result.add_across(azimuth(s, k + 0.5), by_azimuth[k]);
   return result.to_world(gather.frame);
 }
+
+namespace {
 
 /// The radiance step from `from` to `to` over the wall between them, over the wall's distance: the nearer of the two,
 /// since it is the nearer surface that covers and uncovers the other. Between two samples of the sky nothing moves.

@@ -12,6 +12,9 @@ Jet<Rgb> irradiance(const HemisphereGather& gather);
 /// bias falls only with the root of the number of rings; `exact` is the stratum's integral.
 enum class RotationWeights { classical, exact };
 
+/// The rotational gradient alone, which needs no distances.
+Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeights weights);
+
 /// Irradiance with the rotational and translational gradients of the stratified hemisphere [Ward, Heckbert 1992]:
 /// radiance steps over the walls between strata, each wall at the nearer of its two distances.
 Jet<Rgb> ward_heckbert_1992(const HemisphereGather& gather, RotationWeights weights);

@@ -1,0 +1,25 @@
+#include "isophote/derivatives/krivanek_2005.h"
+
+#include "isophote/derivatives/surface_sample.h"
+#include "isophote/derivatives/tangent.h"
+#include "isophote/derivatives/ward_heckbert_1992.h"
+
+namespace isophote {
+
+Jet<Rgb> krivanek_2005(const HemisphereGather& gather) {
+  Jet<Rgb> jet = irradiance(gather);
+  const Framed frame(gather.frame);
+  const double weight = std::numbers::pi / gather.strata.size();
+  TangentGradient gradient;
+  for (const GatherSample& sample : gather.samples) {
+    const SurfaceSample s(sample, frame);
+    const Rgbd light = Rgbd(sample.radiance) * (weight * s.inverse_distance);
+    gradient.u += light * (4 * s.direction.x + s.tilt.x);
+    gradient.v += light * (4 * s.direction.y + s.tilt.y);
+  }
+  jet.translational = gradient.to_world(gather.frame);
+  jet.rotational = rotational_gradient(gather, RotationWeights::exact);
+  return jet;
+}
+
+}  // namespace isophote

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "isophote/derivatives/gather.h"
+#include "isophote/derivatives/jet.h"
+
+namespace isophote {
+
+/// Irradiance with the translational gradient in surface-area form [Arvo 1994], [Krivanek 2005]: each sample stands for
+/// a small piece of the surface it met, seen by the moving record as if nothing ever came between. Unaware of
+/// occlusion.
+Jet<Rgb> krivanek_2005(const HemisphereGather& gather);
+
+}  // namespace isophote

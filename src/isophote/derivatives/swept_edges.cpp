@@ -1,0 +1,61 @@
+#include "isophote/derivatives/swept_edges.h"
+
+#include <algorithm>
+
+#include "isophote/derivatives/tangent.h"
+#include "isophote/derivatives/ward_heckbert_1992.h"
+
+namespace isophote {
+
+namespace swept {
+
+Grid::Grid(const Strata& s) {
+  std::vector<Azimuth> azimuths;
+  for (int k = 0; k < s.azimuthal; ++k) azimuths.push_back(azimuth(s, k));
+  const double half_turn_of_cell = std::sin(s.azimuth(0.5));
+  for (int j = 0; j <= s.polar; ++j) {
+    const double sin = s.sin_edge(j), cos = s.cos_edge(j);
+    for (const Azimuth& a : azimuths) corners.push_back({sin * a.cos, sin * a.sin, cos});
+    if (j < s.polar) ring_angles.push_back(s.theta_edge(j + 1) - s.theta_edge(j));
+    wall_angles.push_back(2 * std::asin(sin * half_turn_of_cell));
+  }
+}
+
+std::vector<Plane> planes_of(const HemisphereGather& gather) {
+  std::vector<Plane> planes;
+  planes.reserve(gather.samples.size());
+  const Framed frame(gather.frame);
+  for (const GatherSample& s : gather.samples) {
+    Plane& plane = planes.emplace_back();
+    plane.normal = frame.to_local(Vec3d(s.normal));
+    const double slope = dot(plane.normal, frame.to_local(Vec3d(s.direction)));
+    if (s.distance < infinity) plane.inverse = 1 / static_cast<double>(s.distance);
+    plane.scale = slope != 0 ? 1 / slope : 0;
+  }
+  return planes;
+}
+
+}  // namespace swept
+
+Jet<Rgb> swept_edges(const HemisphereGather& gather) {
+  Jet<Rgb> jet = irradiance(gather);
+  TangentGradient gradient;
+  TangentHessian hessian;
+  for_each_swept_edge(gather, [&](const SweptEdge& e) {
+    const EdgeMoments s(e);
+    const Rgbd step = (Rgbd(e.to->radiance) - Rgbd(e.from->radiance)) * e.sign;
+    const double first = (s.s20 * e.m.z + s.s11 * e.t.z) / e.h;
+    gradient.u += step * (e.c.x * first), gradient.v += step * (e.c.y * first);
+    const Vec3d q = e.m * (s.s40 * e.m.z + s.s31 * e.t.z) + e.t * (s.s31 * e.m.z + s.s22 * e.t.z);
+    const double second = 2 * luminance(step) / (e.h * e.h);
+    hessian.uu += second * 2 * e.c.x * q.x;
+    hessian.uv += second * (e.c.x * q.y + e.c.y * q.x);
+    hessian.vv += second * 2 * e.c.y * q.y;
+  });
+  jet.translational = gradient.to_world(gather.frame);
+  jet.rotational = rotational_gradient(gather, RotationWeights::exact);
+  jet.hessian = hessian.to_world(gather.frame);
+  return jet;
+}
+
+}  // namespace isophote

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cmath>
+
+#include "isophote/core/frame.h"
+#include "isophote/core/sym3.h"
+#include "isophote/derivatives/jet.h"
+#include "isophote/sampling/strata.h"
+
+namespace isophote {
+
+/// A direction in the tangent plane of a gather's frame, by its azimuth.
+struct Azimuth {
+  double cos, sin;
+};
+inline Azimuth azimuth(const Strata& strata, double k) {
+  const double phi = strata.azimuth(k);
+  return {std::cos(phi), std::sin(phi)};
+}
+
+/// A tangential gradient in the local frame, turned into world space.
+struct TangentGradient {
+  Rgbd u, v;
+
+  void add(const Azimuth& direction, const Rgbd& amount) { u += amount * direction.cos, v += amount * direction.sin; }
+  /// Adds along the direction a quarter turn ahead, that of growing azimuth.
+  void add_across(const Azimuth& direction, const Rgbd& amount) {
+    u -= amount * direction.sin, v += amount * direction.cos;
+  }
+
+  Gradient<Rgb> to_world(const Frame& frame) const {
+    const Framed f(frame);
+    return {Rgb(u * f.u.x + v * f.v.x), Rgb(u * f.u.y + v * f.v.y), Rgb(u * f.u.z + v * f.v.z)};
+  }
+};
+
+/// A symmetric form on the tangent plane in the local frame, turned into world space.
+struct TangentHessian {
+  double uu = 0, uv = 0, vv = 0;
+
+  Sym3 to_world(const Frame& frame) const {
+    const Framed f(frame);
+    const auto entry = [&](int i, int j) {
+      return static_cast<float>(uu * f.u[i] * f.u[j] + uv * (f.u[i] * f.v[j] + f.v[i] * f.u[j]) + vv * f.v[i] * f.v[j]);
+    };
+    return {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+  }
+};
+
+}  // namespace isophote
