@@ -23,7 +23,7 @@ struct Footprint {
   float smallest = 0;  ///< bounds that `radius` keeps when it is changed
   float largest = std::numeric_limits<float>::infinity();
   Falloff falloff = Falloff::ward;
-  std::uint8_t order = 0;  ///< 0: the value alone; 1: extrapolated by its gradients
+  std::uint8_t order = 0;  ///< 0: the value alone; 1: extrapolated by its gradients; 2: and by its Hessian
 
   /// A round footprint.
   static Footprint disk(float radius, float normal_scale) {
@@ -54,11 +54,19 @@ struct Footprint {
 /// Of the scene's diagonal: what is left of a radius where everything would shrink it to nothing, as in a black corner.
 inline constexpr float smallest_radius = 1e-5f;
 
+/// What a few places of the picture say of all, in the mean over visible points: for metrics that aim at a mean error.
+struct Pilot {
+  float error_rate = 0;  ///< error for unit threshold, 1/length: see total_error.h
+  float irradiance = 0;  ///< luminance
+};
+
 /// How a record is seen when its footprint is decided.
 struct View {
   float pixel = 0;        ///< length that a pixel spans at the record, along the path through mirrors and glass
   float picture = 0;      ///< length that the picture's height spans there
   float scene_scale = 1;  ///< diagonal of the scene's bounds
+  Vec3 normal{0, 0, 1};   ///< of the record, unit
+  Pilot pilot{};
 };
 
 }  // namespace isophote

@@ -77,46 +77,54 @@ void NeighbourIndex::lowered(std::span<const Record> records, std::uint32_t cell
     if (next != 0) take(cells_[next].least, cells_[next].greatest);
 }
 
-float NeighbourIndex::limit(std::span<const Record> records, const Vec3& position, const Vec3& normal,
-                            float unscaled) const {
-  limit(records, 0, position, normal, unscaled);
+float NeighbourIndex::limit(std::span<const Record> records, const Vec3& position, const Vec3& normal, float unscaled,
+                            float slope) const {
+  limit(records, 0, position, normal, slope, unscaled);
   return unscaled;
 }
 
 void NeighbourIndex::limit(std::span<const Record> records, std::uint32_t cell, const Vec3& position,
-                           const Vec3& normal, float& least) const {
+                           const Vec3& normal, float slope, float& least) const {
   const Cell& here = cells_[cell];
-  if (const float room = least - here.least; !(room > 0) || distance_squared(here.box, position) >= room * room) return;
+  const auto in_reach = [&](float radius, float distance_squared) {
+    const float reach = (least - radius) / slope;
+    return reach > 0 && distance_squared < reach * reach;
+  };
+  if (!in_reach(here.least, distance_squared(here.box, position))) return;
   for (const std::uint32_t id : here.ids) {
     const Record& other = records[id];
-    const float room = least - other.footprint.unscaled, apart = length_squared(other.position - position);
-    if (room > 0 && apart < room * room && dot(normal, other.normal) > 0)
-      least = std::min(least, other.footprint.unscaled + std::sqrt(apart));
+    const float apart = length_squared(other.position - position);
+    if (in_reach(other.footprint.unscaled, apart) && dot(normal, other.normal) > 0)
+      least = std::min(least, other.footprint.unscaled + slope * std::sqrt(apart));
   }
   const int nearest = octant(here, position);
   for (int i = 0; i < 8; ++i)
-    if (const std::uint32_t next = here.children[nearest ^ i]) limit(records, next, position, normal, least);
+    if (const std::uint32_t next = here.children[nearest ^ i]) limit(records, next, position, normal, slope, least);
 }
 
-std::vector<std::uint32_t> NeighbourIndex::limited(std::span<const Record> records, const Record& by) const {
+std::vector<std::uint32_t> NeighbourIndex::limited(std::span<const Record> records, const Record& by,
+                                                   float slope) const {
   std::vector<std::uint32_t> found;
-  limited(records, 0, by, found);
+  limited(records, 0, by, slope, found);
   return found;
 }
 
-void NeighbourIndex::limited(std::span<const Record> records, std::uint32_t cell, const Record& by,
+void NeighbourIndex::limited(std::span<const Record> records, std::uint32_t cell, const Record& by, float slope,
                              std::vector<std::uint32_t>& found) const {
   const Cell& here = cells_[cell];
-  const float most = here.greatest - by.footprint.unscaled;
-  if (!(most > 0) || distance_squared(here.box, by.position) >= most * most) return;
+  const auto in_reach = [&](float radius, float distance_squared) {
+    const float reach = (radius - by.footprint.unscaled) / slope;
+    return reach > 0 && distance_squared < reach * reach;
+  };
+  if (!in_reach(here.greatest, distance_squared(here.box, by.position))) return;
   for (const std::uint32_t id : here.ids) {
     const Record& other = records[id];
-    const float room = other.footprint.unscaled - by.footprint.unscaled;
-    if (room > 0 && length_squared(other.position - by.position) < room * room && dot(by.normal, other.normal) > 0)
+    if (in_reach(other.footprint.unscaled, length_squared(other.position - by.position)) &&
+        dot(by.normal, other.normal) > 0)
       found.push_back(id);
   }
   for (const std::uint32_t next : here.children)
-    if (next != 0) limited(records, next, by, found);
+    if (next != 0) limited(records, next, by, slope, found);
 }
 
 }  // namespace isophote

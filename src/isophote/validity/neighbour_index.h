@@ -11,7 +11,7 @@
 namespace isophote {
 
 /// Finds, among many records, those that limit the unscaled radius of another and those that it limits: records that
-/// face alike keep R_i <= R_j + |x_i - x_j| [Krivanek 2006]. An octree over their positions, whose cells know the least
+/// face alike keep R_i <= R_j + slope |x_i - x_j| [Krivanek 2006]. An octree over their positions, whose cells know the least
 /// and the greatest unscaled radius in them, so that few pairs are looked at. It holds ids; the records are handed in
 /// with each call, ids being their places. Records may lie beyond the bounds. For one thread.
 class NeighbourIndex {
@@ -25,10 +25,11 @@ class NeighbourIndex {
   /// To be told when the unscaled radius of a known record was lowered.
   void lowered(std::span<const Record> records, std::uint32_t id);
 
-  /// The least of `unscaled` and all R_j + |x_j - position| among the known records on this side of the normal.
-  float limit(std::span<const Record> records, const Vec3& position, const Vec3& normal, float unscaled) const;
+  /// The least of `unscaled` and all R_j + slope |x_j - position| among the known records that face as `normal` does.
+  float limit(std::span<const Record> records, const Vec3& position, const Vec3& normal, float unscaled,
+              float slope) const;
   /// The known records that `by` limits, in an order fixed by the insertions.
-  std::vector<std::uint32_t> limited(std::span<const Record> records, const Record& by) const;
+  std::vector<std::uint32_t> limited(std::span<const Record> records, const Record& by, float slope) const;
 
  private:
   struct Cell {
@@ -45,9 +46,9 @@ class NeighbourIndex {
   void split(std::span<const Record> records, std::uint32_t cell);
   void insert(std::span<const Record> records, std::uint32_t cell, std::uint32_t id);
   void lowered(std::span<const Record> records, std::uint32_t cell, const Vec3& position);
-  void limit(std::span<const Record> records, std::uint32_t cell, const Vec3& position, const Vec3& normal,
+  void limit(std::span<const Record> records, std::uint32_t cell, const Vec3& position, const Vec3& normal, float slope,
              float& least) const;
-  void limited(std::span<const Record> records, std::uint32_t cell, const Record& by,
+  void limited(std::span<const Record> records, std::uint32_t cell, const Record& by, float slope,
                std::vector<std::uint32_t>& found) const;
 
   std::vector<Cell> cells_;

@@ -12,13 +12,17 @@ struct Record {
   Vec3 position;
   Vec3 normal;  ///< unit
   Footprint footprint;
-  float gradient_scale = 1;  ///< what the limit on extrapolation leaves of the translational gradient
+  float gradient_scale = 1;   ///< what the limit on extrapolation leaves of the translational gradient
+  float curvature_scale = 0;  ///< of the Hessian: half of what is left over the value's luminance
   Jet<Rgb> jet;              ///< irradiance
 
-  /// The value extrapolated to position + d and, to first order, from `normal` to the unit vector n. Never negative.
+  /// The value extrapolated to position + d and, to first order, from `normal` to the unit vector n. The Hessian, known
+  /// of luminance, is taken to have the value's colour. Never negative.
   Rgb extrapolate(const Vec3& d, const Vec3& n) const {
     if (footprint.order == 0) return jet.value;
-    return max(jet.value + jet.translational.dot(d) * gradient_scale + jet.rotational.dot(cross(normal, n)), Rgb{});
+    Rgb value = jet.value + jet.translational.dot(d) * gradient_scale + jet.rotational.dot(cross(normal, n));
+    if (footprint.order > 1) value += jet.value * (curvature_scale * quadratic_form(jet.hessian, d));
+    return max(value, Rgb{});
   }
 };
 

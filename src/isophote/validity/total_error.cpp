@@ -1,0 +1,77 @@
+#include "isophote/validity/total_error.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "isophote/core/frame.h"
+
+namespace isophote {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The tangential Hessian over E: absolute eigenvalues, and the axis of the first.
+struct Curvature {
+  double first, second;
+  Vec3d axis, across;
+};
+
+Curvature curvature(const Jet<Rgb>& jet, const Vec3& normal, float irradiance) {
+  const Framed frame{Vec3d(normal)};
+  const Sym3& h = jet.hessian;
+  const Sym3d hessian{h.xx, h.xy, h.xz, h.yy, h.yz, h.zz};
+  const double uu = quadratic_form(hessian, frame.u), vv = quadratic_form(hessian, frame.v);
+  const double uv = (quadratic_form(hessian, frame.u + frame.v) - uu - vv) / 2;
+  // Axes from the signed form: of a saddle the absolute values say nothing.
+  const double angle = std::atan2(2 * uv, uu - vv) / 2, c = std::cos(angle), s = std::sin(angle);
+  const double mean = (uu + vv) / 2, half = std::hypot((uu - vv) / 2, uv);
+  const double value = 0.99 * luminance(Rgbd(jet.value)) + 0.01 * irradiance;
+  const double over = value > 0 ? 1 / value : 0;
+  return {std::abs(mean + half) * over, std::abs(mean - half) * over, frame.u * c + frame.v * s,
+          frame.v * c - frame.u * s};
+}
+
+/// |n - n_i| / sqrt 2 at which a record ends: an angle of 10 degrees for an error of 0.02, and its root.
+float normal_scale(float wanted) {
+  const double angle = pi / 18 * std::sqrt(wanted / 0.02);
+  return static_cast<float>(1 / std::sqrt(1 - std::cos(std::min(angle, pi / 2))));
+}
+
+}  // namespace
+
+float error_rate(const Jet<Rgb>& jet, const Vec3& normal, float irradiance) {
+  const Curvature k = curvature(jet, normal, irradiance);
+  return static_cast<float>(std::sqrt((k.first + k.second) / (8 * pi)));
+}
+
+Footprint total_error(const Jet<Rgb>& jet, const View& view, float wanted, const RadiusBounds& bounds, float aspect) {
+  const Curvature k = curvature(jet, view.normal, view.pilot.irradiance);
+  const double cap = std::min(jet.distances.harmonic_mean, view.scene_scale);
+  const double root = view.pilot.error_rate > 0 ? wanted / view.pilot.error_rate : cap * cap;
+  const auto radius = [&](double curvature) {
+    return curvature > 0 ? std::min(cap, std::sqrt(root) * std::pow(4 / (pi * curvature), 0.25)) : cap;
+  };
+  double first = radius((k.first + k.second) / 2), second = first;
+  if (aspect > 1) {
+    first = radius(k.first), second = radius(k.second);
+    const double shorter = std::min(first, second);
+    first = std::min(first, shorter * aspect), second = std::min(second, shorter * aspect);
+  }
+  const double longer = std::max(first, second), shorter = std::min(first, second);
+  const RadiusRange range(bounds, view, wanted);
+  Footprint footprint;
+  footprint.normal_scale = normal_scale(wanted);
+  footprint.falloff = Falloff::tent;
+  footprint.smallest = range.smallest, footprint.largest = range.largest;
+  footprint.radius = footprint.unscaled = static_cast<float>(longer);
+  const double x = 1 / (first * first), y = 1 / (second * second), z = 1 / (shorter * shorter);
+  const Vec3d n(view.normal);
+  const auto entry = [&](int i, int j) {
+    return static_cast<float>(x * k.axis[i] * k.axis[j] + y * k.across[i] * k.across[j] + z * n[i] * n[j]);
+  };
+  footprint.shape = {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+  footprint.resize(footprint.radius);
+  return footprint;
+}
+
+}  // namespace isophote
