@@ -94,8 +94,8 @@ TEST(Catalogue, MakesAndSettlesRecordsAsItsPartsSay) {
     std::vector<Record> records{method.make_record(gather, view)};
     EXPECT_EQ(records[0].position, gather.position);
     EXPECT_EQ(records[0].normal, gather.frame.n);
-    EXPECT_EQ(records[0].footprint.order, method.estimator->gradients ? 1 : 0);
-    EXPECT_EQ(records[0].jet.translational == Gradient<Rgb>{}, !method.estimator->gradients);
+    EXPECT_EQ(records[0].footprint.order, std::min(method.order, method.estimator->order));
+    EXPECT_EQ(records[0].jet.translational == Gradient<Rgb>{}, method.estimator->order == 0);
     const float radius = records[0].footprint.radius;
     const std::uint32_t fresh = 0;
     NeighbourIndex neighbours({gather.position, gather.position});

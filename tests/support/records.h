@@ -2,7 +2,9 @@
 
 #include <random>
 
-#include "isophote/validity/record.h"
+#include "isophote/validity/radius_bounds.h"
+#include "isophote/validity/settle.h"
+#include "isophote/validity/split_sphere.h"
 
 namespace isophote::test {
 
@@ -44,6 +46,12 @@ inline Record round_record(const Vec3& position, const Vec3& normal, float radiu
   record.jet.value = Rgb(1);
   record.jet.distances.harmonic_mean = radius;
   return record;
+}
+
+/// What the metric's records do to each other.
+inline void settle_bounded(const Settling& settling, std::span<const std::uint32_t> fresh, float a,
+                           const RadiusBounds& bounds) {
+  settle(settling, fresh, {.scale = split_sphere_radius(1, a), .neighbours = bounds.neighbours});
 }
 
 }  // namespace isophote::test

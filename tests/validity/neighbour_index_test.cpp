@@ -19,24 +19,24 @@ std::vector<Record> scattered(int count, const Vec3& upper) {
   return records;
 }
 
-bool limits(const Record& by, const Record& other) {
-  const float room = other.footprint.unscaled - by.footprint.unscaled;
+bool limits(const Record& by, const Record& other, float slope) {
+  const float room = (other.footprint.unscaled - by.footprint.unscaled) / slope;
   return room > 0 && length_squared(other.position - by.position) < room * room && dot(by.normal, other.normal) > 0;
 }
 
 /// What the index says about each record, all others being known, is what looking at all pairs says.
-void expect_brute_force(const NeighbourIndex& index, const std::vector<Record>& records) {
+void expect_brute_force(const NeighbourIndex& index, const std::vector<Record>& records, float slope) {
   for (const Record& r : records) {
     float expected = r.footprint.unscaled;
     std::vector<std::uint32_t> limited;
     for (std::uint32_t i = 0; i < records.size(); ++i) {
       const Record& other = records[i];
-      if (limits(other, r))
-        expected = std::min(expected, other.footprint.unscaled + length(other.position - r.position));
-      if (limits(r, other)) limited.push_back(i);
+      if (limits(other, r, slope))
+        expected = std::min(expected, other.footprint.unscaled + slope * length(other.position - r.position));
+      if (limits(r, other, slope)) limited.push_back(i);
     }
-    EXPECT_FLOAT_EQ(index.limit(records, r.position, r.normal, r.footprint.unscaled), expected);
-    std::vector<std::uint32_t> found = index.limited(records, r);
+    EXPECT_FLOAT_EQ(index.limit(records, r.position, r.normal, r.footprint.unscaled, slope), expected);
+    std::vector<std::uint32_t> found = index.limited(records, r, slope);
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, limited);
   }
@@ -48,13 +48,13 @@ TEST(NeighbourIndex, IsBruteForce) {
     std::vector<Record> records = scattered(400, upper);
     NeighbourIndex index({{0, 0, 0}, {1, 1, 1}});
     while (index.size() < records.size()) index.insert(records);
-    expect_brute_force(index, records);
+    for (const float slope : {1.0f, 0.5f}) expect_brute_force(index, records, slope);
     RandomPlaces random(5);
     for (std::uint32_t i = 0; i < records.size(); i += 3) {
       records[i].footprint.unscaled *= random.number(0.1f, 1);
       index.lowered(records, i);
     }
-    expect_brute_force(index, records);
+    for (const float slope : {1.0f, 0.5f}) expect_brute_force(index, records, slope);
   }
 }
 

@@ -2,66 +2,119 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "isophote/core/error.h"
+#include "isophote/derivatives/jarosz_2012.h"
+#include "isophote/derivatives/krivanek_2005.h"
+#include "isophote/derivatives/schwarzhaupt_2012.h"
+#include "isophote/derivatives/swept_edges.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
+#include "isophote/validity/bounded_split_sphere.h"
 #include "isophote/validity/limit_gradient.h"
+#include "isophote/validity/settle.h"
 #include "isophote/validity/split_sphere.h"
+#include "isophote/validity/total_error.h"
 #include "isophote/validity/uniform.h"
 
 namespace isophote {
 namespace {
 
 constexpr Estimator estimator_table[] = {
-    {"irradiance", "[Ward, Rubinstein, Clear 1988]", "value", false, irradiance},
-    {"ward-heckbert", "[Ward, Heckbert 1992]", "value, gradients (classical rotation)", true,
+    {"irradiance", "[Ward, Rubinstein, Clear 1988]", "value", 0, irradiance},
+    {"ward-heckbert", "[Ward, Heckbert 1992]", "value, gradients (classical rotation)", 1,
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::classical); }},
-    {"ward-heckbert-exact", "[Ward, Heckbert 1992]", "value, gradients (exact rotation weights)", true,
+    {"ward-heckbert-exact", "[Ward, Heckbert 1992]", "value, gradients (exact rotation weights)", 1,
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact); }},
+    {"krivanek2005", "[Krivanek 2005]", "value, gradients unaware of occlusion", 1, krivanek_2005},
+    {"jarosz2012", "[Jarosz 2012]", "value, gradients, Hessian unaware of occlusion", 2, jarosz_2012},
+    {"schwarzhaupt2012", "[Schwarzhaupt 2012]", "value, gradients, Hessian", 2,
+     [](const HemisphereGather& g) { return schwarzhaupt_2012(g, Horizon::closed); }},
+    {"schwarzhaupt2012-open", "[Schwarzhaupt 2012]", "the same, open at the horizon", 2,
+     [](const HemisphereGather& g) { return schwarzhaupt_2012(g, Horizon::open); }},
+    {"swept-edges", "", "value, gradients, Hessian", 2, swept_edges},
 };
+
+void settle_by(const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings& s, float scale,
+               float slope) {
+  settle(settling, fresh, {.scale = scale, .neighbours = s.bounds.neighbours, .slope = slope});
+}
 
 constexpr Metric metric_table[] = {
-    {"split-sphere", "[Ward, Rubinstein, Clear 1988]", false, 1.4f,
-     [](const Jet<Rgb>& jet, const View& view, const MetricSettings& s) { return split_sphere(jet, view, s.a); },
-     nullptr},
-    {"bounded-split-sphere", "[Krivanek 2006]", true, 1.4f,
-     [](const Jet<Rgb>& jet, const View& view, const MetricSettings& s) {
-       return bounded_split_sphere(jet, view, s.a, s.bounds);
-     },
-     [](const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings& s) {
-       settle_bounded(settling, fresh, s.a, s.bounds);
-     }},
-    {"uniform", "", false, 1.4f,
-     [](const Jet<Rgb>&, const View& view, const MetricSettings& s) { return uniform(view, s.a); },
-     [](const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings&) {
-       for (Record& r : settling.records.subspan(fresh.front(), fresh.size())) limit_gradient(r, r.footprint.radius);
-     }},
+    {.name = "split-sphere",
+     .paper = "[Ward, Rubinstein, Clear 1988]",
+     .a_factor = 1.4f,
+     .a_power = 0.5f,
+     .measure = [](const Jet<Rgb>& jet, const View& view,
+                   const MetricSettings& s) { return split_sphere(jet, view, s.a); }},
+    {.name = "bounded-split-sphere",
+     .paper = "[Krivanek 2006]",
+     .bounded = true,
+     .a_factor = 1.4f,
+     .a_power = 0.5f,
+     .measure = [](const Jet<Rgb>& jet, const View& view,
+                   const MetricSettings& s) { return bounded_split_sphere(jet, view, s.a, s.bounds); },
+     .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
+                  const MetricSettings& s) { settle_by(settling, fresh, s, split_sphere_radius(1, s.a), 1); }},
+    {.name = "total-error",
+     .paper = "[Jarosz 2012]",
+     .bounded = true,
+     .needs = 2,
+     .measure = [](const Jet<Rgb>& jet, const View& view,
+                   const MetricSettings& s) { return total_error(jet, view, s.a, s.bounds, s.aspect); },
+     .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
+                  const MetricSettings& s) { settle_by(settling, fresh, s, 1, 0.5f); }},
+    {.name = "uniform",
+     .a_factor = 1.4f,
+     .a_power = 0.5f,
+     .measure = [](const Jet<Rgb>&, const View& view, const MetricSettings& s) { return uniform(view, s.a); },
+     .settle =
+         [](const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings&) {
+           for (Record& r : settling.records.subspan(fresh.front(), fresh.size()))
+             limit_gradient(r, r.footprint.radius);
+         }},
 };
 
-constexpr const Estimator& no_gradients = estimator_table[0];
-constexpr const Estimator& classical = estimator_table[1];
-constexpr const Estimator& exact = estimator_table[2];
-constexpr const Metric& split = metric_table[0];
-constexpr const Metric& bounded = metric_table[1];
-constexpr const Metric& one_radius = metric_table[2];
+constexpr const Estimator &no_gradients = estimator_table[0], &classical = estimator_table[1],
+                          &exact = estimator_table[2], &unaware = estimator_table[4],
+                          &triangulated = estimator_table[5], &swept = estimator_table[7];
+constexpr const Metric &split = metric_table[0], &bounded = metric_table[1], &total = metric_table[2],
+                       &one_radius = metric_table[3];
 
+constexpr float any_aspect = std::numeric_limits<float>::infinity();
 const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = true};
 const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.15f, .neighbours = true};
+const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = true};
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.
 const Method method_table[] = {
-    {"path", "[Veach, Guibas 1995]", "path tracing: the unbiased reference", nullptr, nullptr, {}, false},
-    {"ward1988", "[Ward, Rubinstein, Clear 1988]", "split sphere, values alone", &no_gradients, &split, {}, false},
-    {"ward1992", "[Ward, Heckbert 1992]", "split sphere, gradients", &classical, &split, {}, false},
+    {"path", "[Veach, Guibas 1995]", "path tracing: the unbiased reference"},
+    {"ward1988", "[Ward, Rubinstein, Clear 1988]", "split sphere, values alone", &no_gradients, &split, {}, 0},
+    {"ward1992", "[Ward, Heckbert 1992]", "split sphere, gradients", &classical, &split, {}, 1},
     {"bounded",
      "[Tabellion, Lamorlette 2004] [Krivanek 2006]",
      "split sphere within bounds",
      &exact,
      &bounded,
-     {.a = 0.2f, .bounds = bounded_preset},
-     false},
-    {"uniform", "", "one radius everywhere: the control", &exact, &one_radius, {}, false},
-    {"cached", "", "the best combination there is here", &exact, &bounded, {.a = 0.2f, .bounds = cached_preset}, true},
+     {.bounds = bounded_preset},
+     1},
+    {"jarosz2012", "[Jarosz 2012]", "Hessian unaware of occlusion", &unaware, &total, {.bounds = safety}, 1},
+    {"schwarzhaupt2012",
+     "[Schwarzhaupt 2012]",
+     "Hessian of the triangulated hemisphere, ellipses",
+     &triangulated,
+     &total,
+     {.bounds = safety, .aspect = any_aspect},
+     1},
+    {"swept",
+     "",
+     "Hessian by swept edges, ellipses, second order",
+     &swept,
+     &total,
+     {.bounds = swept_preset, .aspect = 2},
+     2},
+    {"uniform", "", "one radius everywhere: the control", &swept, &one_radius, {}, 1},
+    {"cached", "", "the best combination there is here", &exact, &bounded, {.bounds = cached_preset}, 1, true},
 };
 
 template <class Table>
@@ -82,7 +135,7 @@ Record Method::make_record(const HemisphereGather& gather, const View& view) con
   record.normal = gather.frame.n;
   record.jet = estimator->estimate(gather);
   record.footprint = metric->measure(record.jet, view, settings);
-  record.footprint.order = estimator->gradients ? 1 : 0;
+  record.footprint.order = static_cast<std::uint8_t>(std::min(order, estimator->order));
   return record;
 }
 
@@ -99,7 +152,7 @@ const Estimator& find_estimator(std::string_view name) { return find(estimator_t
 const Metric& find_metric(std::string_view name) { return find(metric_table, name, "metric"); }
 
 float threshold(const Metric& metric, double error) {
-  return std::min(greatest_threshold, metric.a_per_root_error * static_cast<float>(std::sqrt(error)));
+  return std::min(greatest_threshold, metric.a_factor * std::pow(static_cast<float>(error), metric.a_power));
 }
 
 void check_combination(const Method& method) {
@@ -108,7 +161,12 @@ void check_combination(const Method& method) {
     return "metric '" + std::string(method.metric->name) + "' and estimator '" + std::string(method.estimator->name) +
            "': ";
   };
-  if (method.settings.bounds.gradient && !method.estimator->gradients)
+  if (method.estimator->order < method.metric->needs)
+    throw UsageError(pair() + "this metric needs a Hessian, which this estimator does not give");
+  if (method.order > method.estimator->order)
+    throw UsageError(pair() + "extrapolation to order " + std::to_string(method.order) +
+                     " needs derivatives that this estimator does not give");
+  if (method.settings.bounds.gradient && method.estimator->order == 0)
     throw UsageError(pair() + "the bound by the gradient needs a gradient, which this estimator does not give");
   if (!method.metric->bounded && method.settings.bounds != RadiusBounds{})
     throw UsageError(pair() + "this metric heeds no bounds on the radius; 'bounded-split-sphere' does");

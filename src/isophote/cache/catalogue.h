@@ -5,30 +5,34 @@
 #include <string_view>
 
 #include "isophote/derivatives/gather.h"
-#include "isophote/validity/bounded_split_sphere.h"
+#include "isophote/validity/neighbour_index.h"
+#include "isophote/validity/radius_bounds.h"
 
 namespace isophote {
 
 /// What a metric is told besides the jet and the view.
 struct MetricSettings {
-  float a = 0.2f;  ///< the error at which a record's use ends; the smaller, the more records
+  float a = 0.2f;  ///< the threshold: the smaller, the more records
   RadiusBounds bounds;
+  float aspect = 1;  ///< of ellipses, at most; 1: disks
 };
 
 /// An estimator of `derivatives/`: what the illumination does around a record.
 struct Estimator {
   std::string_view name, paper, gives;
-  bool gradients;
+  int order;  ///< 0: the value; 1: gradients too; 2: and the Hessian
   Jet<Rgb> (*estimate)(const HemisphereGather&);
 };
 
 /// A metric of `validity/`: how far that can be trusted, and what records do to each other.
 struct Metric {
-  std::string_view name, paper;
-  bool bounded;            ///< heeds MetricSettings::bounds
-  float a_per_root_error;  ///< a = this * sqrt(wanted error): fitted once to the Cornell box, see `bench/run asked`
-  Footprint (*measure)(const Jet<Rgb>&, const View&, const MetricSettings&);
-  void (*settle)(const Settling&, std::span<const std::uint32_t> fresh, const MetricSettings&);  ///< null: nothing
+  std::string_view name{}, paper{};
+  bool bounded = false;             ///< heeds MetricSettings::bounds
+  int needs = 0;                    ///< order of the estimator at least; of 2 it also wants View::pilot
+  float a_factor = 1, a_power = 1;  ///< a = factor * error^power aims at a wanted mean relative error
+  Footprint (*measure)(const Jet<Rgb>&, const View&, const MetricSettings&) = nullptr;
+  void (*settle)(const Settling&, std::span<const std::uint32_t> fresh,
+                 const MetricSettings&) = nullptr;  ///< null: nothing
 };
 
 /// A named combination. `estimator` is null for the path-traced reference, which caches nothing.
@@ -37,7 +41,8 @@ struct Method {
   std::string_view paper, summary;
   const Estimator* estimator = nullptr;
   const Metric* metric = nullptr;
-  MetricSettings settings;
+  MetricSettings settings{};
+  int order = 0;           ///< of extrapolation, at most what the estimator gives
   bool secondary = false;  ///< gather rays read the cache where they hit
 
   bool caches() const { return estimator != nullptr; }
@@ -54,7 +59,7 @@ Method find_method(std::string_view name);
 const Estimator& find_estimator(std::string_view name);
 const Metric& find_metric(std::string_view name);
 
-/// Thresholds end here: a footprint with a greater one is larger than the distances it was derived from.
+/// Thresholds end here: with a greater one, a footprint would be larger than the distances it was derived from.
 inline constexpr float greatest_threshold = 1;
 /// The threshold by which a metric aims at a wanted mean relative error.
 float threshold(const Metric& metric, double error);

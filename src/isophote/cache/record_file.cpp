@@ -18,7 +18,7 @@ namespace isophote {
 namespace {
 
 constexpr char magic[8] = {'I', 'S', 'O', 'P', 'H', 'R', 'E', 'C'};
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 /// Puts numbers into bytes, least significant first.
 struct Packer {
@@ -50,14 +50,17 @@ void transfer(Stream& io, Record& r) {
   const auto vec = [&](Vec3& v) { io(v.x), io(v.y), io(v.z); };
   const auto rgb = [&](Rgb& c) { io(c.r), io(c.g), io(c.b); };
   const auto gradient = [&](Gradient<Rgb>& g) { rgb(g.x), rgb(g.y), rgb(g.z); };
+  const auto form = [&](Sym3& m) { io(m.xx), io(m.xy), io(m.xz), io(m.yy), io(m.yz), io(m.zz); };
   Footprint& f = r.footprint;
   auto falloff = static_cast<std::uint8_t>(f.falloff);
   vec(r.position), vec(r.normal);
-  io(f.shape.xx), io(f.shape.xy), io(f.shape.xz), io(f.shape.yy), io(f.shape.yz), io(f.shape.zz);
+  form(f.shape);
   io(f.normal_scale), io(f.radius), io(f.unscaled), io(f.smallest), io(f.largest);
   io(falloff), io(f.order);
   f.falloff = static_cast<Falloff>(falloff);
-  io(r.gradient_scale), rgb(r.jet.value), gradient(r.jet.translational), gradient(r.jet.rotational);
+  io(r.gradient_scale), io(r.curvature_scale);
+  rgb(r.jet.value), gradient(r.jet.translational), gradient(r.jet.rotational);
+  form(r.jet.hessian);
   io(r.jet.distances.harmonic_mean);
 }
 
@@ -106,6 +109,15 @@ bool bounded(const Jet<Rgb>& jet, float radius) {
   return within(jet.distances.harmonic_mean, 0, infinity);
 }
 
+/// The second-order term too is bounded wherever the record serves.
+bool curved(const Record& r) {
+  const Sym3& h = r.jet.hessian;
+  double size = 0;
+  for (const float entry : {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}) size += std::abs(double{entry});
+  return within(r.curvature_scale, 0, 1e30f) &&
+         size * r.curvature_scale * r.footprint.radius * r.footprint.radius * max_component(r.jet.value) <= 1e30;
+}
+
 /// A file that passes the checksum may still have been made by hand.
 bool usable(const Record& r) {
   const Footprint& f = r.footprint;
@@ -114,7 +126,7 @@ bool usable(const Record& r) {
   const bool sized = within(f.normal_scale, 0, most) && within(f.unscaled, 0, most) &&
                      within(f.smallest, 0, f.radius) && f.largest >= f.radius;
   return placed && shaped(f) && sized && static_cast<int>(f.falloff) <= static_cast<int>(Falloff::tent) &&
-         f.order <= 1 && within(r.gradient_scale, 0, 1) && bounded(r.jet, f.radius);
+         f.order <= 2 && within(r.gradient_scale, 0, 1) && bounded(r.jet, f.radius) && curved(r);
 }
 
 constexpr std::size_t head_size = sizeof magic + 4 + 8 + 4;

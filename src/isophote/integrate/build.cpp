@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "isophote/integrate/pilot.h"
 #include "isophote/integrate/render.h"
 
 namespace isophote {
@@ -39,7 +40,7 @@ struct Candidate {
 
 class Builder {
  public:
-  Builder(const Job& job, RecordCache& cache) : job_(job), cache_(cache) {}
+  Builder(const Job& job, RecordCache& cache) : job_(job), cache_(cache) { job_.pilot = run_pilot(job, report_.rays); }
 
   BuildReport run() {
     job_.progress.tell("build", 0);
@@ -182,9 +183,9 @@ class Builder {
     return fresh;
   }
 
-  const Job& job_;
-  RecordCache& cache_;
   BuildReport report_;
+  Job job_;
+  RecordCache& cache_;
   double done_ = 0, share_ = 0;  // of the build: before the present level, and of it
 };
 
@@ -202,8 +203,8 @@ Record make_record(const Job& job, const RecordCache& cache, const Place& place,
                    HemisphereGather& scratch, RayCounts& counts) {
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), job.seed, id);
   gather_hemisphere(job.world, job.method.secondary ? &cache : nullptr, place, job.strata, key, scratch, counts);
-  return job.method.make_record(
-      scratch, {place.pixel, place.pixel * static_cast<float>(job.height), job.world.rays.scene_scale()});
+  return job.method.make_record(scratch, {place.pixel, place.pixel * static_cast<float>(job.height),
+                                          job.world.rays.scene_scale(), place.normal, job.pilot});
 }
 
 RecordCache empty_cache(const Job& job) { return RecordCache(job.world.scene.bounds()); }

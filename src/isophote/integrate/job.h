@@ -33,6 +33,7 @@ struct Job {
   std::uint64_t seed = 0;
   Method method{};
   Strata strata = Strata::about(800);  ///< of each record's gather
+  Pilot pilot{};                       ///< what metrics want to know of the whole picture: `run_pilot`
   ParallelFor parallel{};
   Progress progress{};
 

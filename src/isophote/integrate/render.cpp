@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "isophote/integrate/build.h"
+#include "isophote/integrate/pilot.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {
@@ -134,8 +135,10 @@ RgbImage coarse_picture(const Job& job, const RecordCache& cache, int stride) {
   return picture;
 }
 
-LazyReport render_lazily(const Job& job, RecordCache& cache, Film& film) {
+LazyReport render_lazily(const Job& asked, RecordCache& cache, Film& film) {
   LazyReport report;
+  Job job = asked;
+  job.pilot = run_pilot(job, report.build_rays);
   HemisphereGather scratch;
   const FlushDenormals flush;
   for (int y = 0; y < job.height; ++y) {

@@ -8,7 +8,7 @@
 namespace isophote {
 
 /// What a stream of random numbers is for; streams of different purpose never share numbers.
-enum class Purpose : std::uint64_t { camera, record, check, test };
+enum class Purpose : std::uint64_t { camera, record, check, test, pilot };
 
 /// A deterministic stream of points of the unit square: sample `index` of an Owen-scrambled (0,2)-sequence in every
 /// pair of dimensions, the pairs decorrelated by shuffling [Burley 2020]. Samples 0..n-1 of one key are stratified over

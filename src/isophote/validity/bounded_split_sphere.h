@@ -5,7 +5,8 @@
 
 namespace isophote {
 
-/// The split-sphere metric with its radius bounded, on the unscaled radius by the gradient, on the used one by the rest.
+/// The split-sphere metric with its radius bounded, on the unscaled radius by the gradient, on the used one by the
+/// rest.
 Footprint bounded_split_sphere(const Jet<Rgb>& jet, const View& view, float a, const RadiusBounds& bounds);
 
 }  // namespace isophote

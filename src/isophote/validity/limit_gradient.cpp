@@ -16,6 +16,8 @@ void limit_gradient(Record& record, float natural_radius) {
     if (change > room) scale = std::min(scale, room / change);
   }
   record.gradient_scale = scale;
+  const float l = luminance(value);
+  record.curvature_scale = l > 0 ? scale * scale / (2 * l) : 0;
 }
 
 }  // namespace isophote

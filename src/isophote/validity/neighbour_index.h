@@ -11,9 +11,9 @@
 namespace isophote {
 
 /// Finds, among many records, those that limit the unscaled radius of another and those that it limits: records that
-/// face alike keep R_i <= R_j + slope |x_i - x_j| [Krivanek 2006]. An octree over their positions, whose cells know the least
-/// and the greatest unscaled radius in them, so that few pairs are looked at. It holds ids; the records are handed in
-/// with each call, ids being their places. Records may lie beyond the bounds. For one thread.
+/// face alike keep R_i <= R_j + slope |x_i - x_j| [Krivanek 2006]. An octree over their positions, whose cells know the
+/// least and the greatest unscaled radius in them, so that few pairs are looked at. It holds ids; the records are
+/// handed in with each call, ids being their places. Records may lie beyond the bounds. For one thread.
 class NeighbourIndex {
  public:
   explicit NeighbourIndex(const Box& bounds);

@@ -29,8 +29,7 @@ struct RadiusRange {
     const float pixels = bounds.max_pixels == std::numeric_limits<float>::infinity() ? bounds.max_pixels
                                                                                      : bounds.max_pixels * view.pixel;
     const float wanted = std::max(bounds.min_length, bounds.min_view * threshold * view.picture);
-    smallest =
-        std::max({std::min(wanted, pixels), bounds.min_pixels * view.pixel, smallest_radius * view.scene_scale});
+    smallest = std::max({std::min(wanted, pixels), bounds.min_pixels * view.pixel, smallest_radius * view.scene_scale});
     largest = std::max(smallest, std::min({bounds.max_length, pixels, view.scene_scale}));
   }
 };

@@ -14,7 +14,7 @@ struct Record {
   Footprint footprint;
   float gradient_scale = 1;   ///< what the limit on extrapolation leaves of the translational gradient
   float curvature_scale = 0;  ///< of the Hessian: half of what is left over the value's luminance
-  Jet<Rgb> jet;              ///< irradiance
+  Jet<Rgb> jet;               ///< irradiance
 
   /// The value extrapolated to position + d and, to first order, from `normal` to the unit vector n. The Hessian, known
   /// of luminance, is taken to have the value's colour. Never negative.

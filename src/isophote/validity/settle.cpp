@@ -23,8 +23,8 @@ void shrink(Record& record, float unscaled, const SettleRule& rule) {
   record.footprint.resize(unscaled * rule.scale);
 }
 
-/// A fresh record takes its own limit from all its neighbours first, and then limits them: among records that face alike
-/// the outcome is the largest radii that keep the bound, whatever the order.
+/// A fresh record takes its own limit from all its neighbours first, and then limits them: among records that face
+/// alike the outcome is the largest radii that keep the bound, whatever the order.
 void clamp_to_neighbours(const Settling& settling, std::uint32_t fresh, const SettleRule& rule) {
   const auto& [records, neighbours] = settling;
   Record& record = records[fresh];

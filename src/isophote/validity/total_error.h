@@ -8,8 +8,8 @@ namespace isophote {
 /// Total error of first-order extrapolation [Jarosz 2012], [Schwarzhaupt 2012]: the radius at which the integral over
 /// the footprint of |second-order term| / E reaches the same eps everywhere. With the tangential Hessian's eigenvalues
 /// l1, l2 over E, a disk has R^4 = 8 eps / (pi (|l1| + |l2|)), an ellipse the semi-axes R_k^4 = 4 eps / (pi |l_k|), of
-/// which the longer is at most `aspect` times the shorter; aspect 1 is the disk. Along the normal a footprint ends at its
-/// shorter axis.
+/// which the longer is at most `aspect` times the shorter; aspect 1 is the disk. Along the normal a footprint ends at
+/// its shorter axis.
 ///
 /// `wanted` is the mean relative error to aim at: eps / (pi R^2) averages to it over the visible points if
 /// eps = (wanted / rate)^2, rate being the mean of `error_rate` over them (Pilot). No radius is above the harmonic mean

@@ -1,0 +1,149 @@
+#include "isophote/validity/total_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "isophote/core/frame.h"
+#include "support/records.h"
+
+namespace isophote::test {
+namespace {
+
+constexpr float any_aspect = std::numeric_limits<float>::infinity();
+const Vec3 up{0, 0, 1};
+
+/// Of value 2, in the plane z = 0.
+Jet<Rgb> curved(float xx, float xy, float yy) {
+  Jet<Rgb> jet;
+  jet.value = Rgb(2);
+  jet.hessian = {xx, xy, 0, yy, 0, 0};
+  jet.distances.harmonic_mean = 100;
+  return jet;
+}
+View view_of(float error_rate) {
+  View view;
+  view.scene_scale = 100;
+  view.pilot = {error_rate, 2};
+  return view;
+}
+float reach(const Footprint& f, const Vec3& d) { return 1 / std::sqrt(quadratic_form(f.shape, d)); }
+
+/// The integral over the footprint, in the plane, of half of |second-order term| over E.
+double integral(const Footprint& f, const std::function<double(double, double)>& term) {
+  double sum = 0;
+  constexpr int n = 800;
+  const double cell = 2.0 * f.radius / n;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      const double x = (i + 0.5) * cell - f.radius, y = (k + 0.5) * cell - f.radius;
+      if (quadratic_form(f.shape, Vec3(Vec3d(x, y, 0))) < 1) sum += term(x, y) / 2 * cell * cell;
+    }
+  return sum;
+}
+
+// The integral is eps, for disks exactly, for the plain ellipse (k + 1/k)/2 times as much, k^4 the ratio of curvatures.
+TEST(TotalError, IsTheIntegralOfTheSecondOrderTerm) {
+  const float wanted = 0.05f, rate = 0.3f;
+  const double eps = std::pow(wanted / rate, 2);
+  for (const auto& [first, second] : {std::pair{3.0f, 3.0f}, {3.0f, 0.5f}}) {
+    const auto term = [a = first, b = second](double x, double y) { return (a * x * x + b * y * y) / 2; };
+    const Footprint disk = total_error(curved(first, 0, second), view_of(rate), wanted, {}, 1);
+    EXPECT_NEAR(integral(disk, term) / eps, 1, 0.01);
+    EXPECT_FLOAT_EQ(reach(disk, {1, 0, 0}), reach(disk, {0, 1, 0}));
+    const Footprint ellipse = total_error(curved(first, 0, second), view_of(rate), wanted, {}, any_aspect);
+    const double k = std::pow(first / second, 0.25);
+    EXPECT_NEAR(integral(ellipse, term) / eps, (k + 1 / k) / 2, 0.01);
+    EXPECT_NEAR(reach(ellipse, {0, 1, 0}) / reach(ellipse, {1, 0, 0}), k, 1e-4);
+  }
+}
+
+// A record's error over its area averages to the wanted one where its own rate is the mean of all.
+TEST(TotalError, TheMeanOverTheAreaIsTheWantedError) {
+  const Jet<Rgb> jet = curved(3, 0.4f, -1);
+  const float rate = error_rate(jet, up, 2);
+  const Footprint f = total_error(jet, view_of(rate), 0.02f, {}, 1);
+  const double eps = std::pow(0.02 / rate, 2);
+  EXPECT_NEAR(eps / (M_PI * f.radius * f.radius), 0.02, 1e-6);
+}
+
+// Axes from the signed form, radii from absolute values: for saddles, turned ones too.
+TEST(TotalError, AxesOfSaddles) {
+  for (const float angle : {0.0f, 0.3f, 1.2f}) {
+    const float c = std::cos(angle), s = std::sin(angle), a = 8, b = -0.5f;
+    const Jet<Rgb> jet = curved(a * c * c + b * s * s, (a - b) * c * s, a * s * s + b * c * c);
+    const Footprint f = total_error(jet, view_of(1), 0.02f, {}, any_aspect);
+    EXPECT_NEAR(reach(f, {-s, c, 0}) / reach(f, {c, s, 0}), 2, 1e-3) << angle;
+    EXPECT_NEAR(f.radius, reach(f, {-s, c, 0}), 1e-5);
+  }
+}
+
+TEST(TotalError, AspectIsCappedAndTheNormalTakesTheShorterAxis) {
+  const Footprint f = total_error(curved(1000, 0, 0.001f), view_of(1), 0.02f, {}, 2);
+  EXPECT_NEAR(reach(f, {0, 1, 0}) / reach(f, {1, 0, 0}), 2, 1e-4);
+  EXPECT_NEAR(reach(f, up) / reach(f, {1, 0, 0}), 1, 1e-4);
+}
+
+TEST(TotalError, TurnsWithItsNormal) {
+  const Frame frame(normalize(Vec3{1, -2, 0.3f}));
+  Jet<Rgb> jet = curved(0, 0, 0);
+  const auto entry = [&](int i, int k) { return 5 * frame.u[i] * frame.u[k] - 0.3f * frame.v[i] * frame.v[k]; };
+  jet.hessian = {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+  View view = view_of(1);
+  view.normal = frame.n;
+  const Footprint turned = total_error(jet, view, 0.02f, {}, 2);
+  const Footprint flat = total_error(curved(5, 0, -0.3f), view_of(1), 0.02f, {}, 2);
+  EXPECT_NEAR(reach(turned, frame.u), reach(flat, {1, 0, 0}), 1e-5);
+  EXPECT_NEAR(reach(turned, frame.v), reach(flat, {0, 1, 0}), 1e-5);
+  EXPECT_NEAR(reach(turned, frame.n), reach(flat, up), 1e-5);
+}
+
+// Where nothing bends, the distances bound the radius; where nothing shines, it stays finite; bounds hold.
+TEST(TotalError, FlatBlackAndBounded) {
+  Jet<Rgb> flat = curved(0, 0, 0);
+  flat.distances.harmonic_mean = 3;
+  EXPECT_FLOAT_EQ(total_error(flat, view_of(1), 0.02f, {}, 2).radius, 3);
+  Jet<Rgb> black = curved(1, 0, 1);
+  black.value = {};
+  for (const Pilot pilot : {Pilot{1, 2}, Pilot{0, 0}}) {
+    View view = view_of(1);
+    view.pilot = pilot;
+    const Footprint f = total_error(black, view, 0.02f, {}, 2);
+    EXPECT_TRUE(std::isfinite(f.radius) && f.radius > 0 && std::isfinite(f.shape.xx) && f.shape.xx > 0);
+  }
+  View view = view_of(1);
+  view.pixel = 0.01f;
+  const RadiusBounds bounds{.min_pixels = 1.5f, .max_length = 0.5f};
+  EXPECT_FLOAT_EQ(total_error(curved(1e9f, 0, 1e9f), view, 0.02f, bounds, 1).radius, 0.015f);
+  EXPECT_FLOAT_EQ(total_error(flat, view, 0.02f, bounds, 2).radius, 0.5f);
+}
+
+// Powers of two of the unit of length change nothing but the unit.
+TEST(TotalError, Scales) {
+  for (const float s : {0x1p-10f, 0x1p13f}) {
+    View small = view_of(0.7f), large = small;
+    large.scene_scale *= s, large.pilot.error_rate /= s;
+    Jet<Rgb> jet = curved(2, 0.3f, -1), far = jet;
+    far.hessian = {2 / (s * s), 0.3f / (s * s), 0, -1 / (s * s), 0, 0};
+    far.distances.harmonic_mean *= s;
+    EXPECT_FLOAT_EQ(total_error(far, large, 0.02f, {}, 2).radius, s * total_error(jet, small, 0.02f, {}, 2).radius);
+  }
+}
+
+// Radii by Hessians grow by no more than half the distance.
+TEST(LipschitzClamping, HoldsForEveryPair) {
+  RandomPlaces random(3);
+  std::vector<Record> records;
+  NeighbourIndex neighbours({{0, 0, 0}, {4, 4, 1}});
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    records.push_back(round_record(random.point({0, 0, 0}, {4, 4, 1}), up, std::pow(10.0f, random.number(-2, 0.5f))));
+    settle({records, neighbours}, {&i, 1}, {.neighbours = true, .slope = 0.5f});
+  }
+  for (const Record& a : records)
+    for (const Record& b : records)
+      EXPECT_LE(a.footprint.radius, b.footprint.radius + 0.5f * length(a.position - b.position) + 1e-5f);
+}
+
+}  // namespace
+}  // namespace isophote::test
