@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "derivatives/hessian_room.h"
-#include "isophote/derivatives/krivanek_2005.h"
+#include "isophote/derivatives/krivanek_2005a.h"
 
 namespace isophote::test {
 namespace {
@@ -27,8 +27,8 @@ TEST(SurfaceArea, DerivativesOfOnePiece) {
   EXPECT_NEAR(jet.hessian.xx, -0.332049260996, 2e-6);
   EXPECT_NEAR(jet.hessian.xy, 0.525044728040, 2e-6);
   EXPECT_NEAR(jet.hessian.yy, -0.685003253433, 2e-6);
-  EXPECT_EQ(krivanek_2005(gather).translational, jet.translational);
-  EXPECT_EQ(krivanek_2005(gather).hessian, Sym3{});
+  EXPECT_EQ(krivanek_2005a(gather).translational, jet.translational);
+  EXPECT_EQ(krivanek_2005a(gather).hessian, Sym3{});
 }
 
 TEST(SurfaceArea, ConvergesWhereNothingHides) {

@@ -45,7 +45,10 @@ int methods() {
 
   rows = {{"metric", "needs", "paper"}};
   for (const Metric& m : metrics())
-    rows.push_back({std::string(m.name), m.bounded ? "distances; a gradient for the gradient bound" : "distances",
+    rows.push_back({std::string(m.name),
+                    m.needs > 1 ? "a Hessian"
+                    : m.bounded ? "distances; a gradient for the gradient bound"
+                                : "distances",
                     std::string(m.paper)});
   fmt::print("\n");
   print_table(rows);

@@ -33,10 +33,12 @@ std::string record_settings(const Job& job) {
   const RadiusBounds& b = job.method.settings.bounds;
   return fmt::format(
       "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmin-radius={}\nmax-radius={}\n"
-      "bound-gradient={}\nbound-neighbours={}\ngather={}x{}\nsecondary={}\nmax-depth={}\n",
+      "bound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}x{}\nsecondary={}\n"
+      "max-depth={}\n",
       job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels,
-      b.min_view, b.min_length, b.max_length, b.gradient, b.neighbours, job.strata.polar, job.strata.azimuthal,
-      job.method.secondary, job.world.max_depth);
+      b.min_view, b.min_length, b.max_length, b.gradient, b.neighbours, job.method.settings.aspect, job.method.order,
+      job.method.settings.falloff ? static_cast<int>(*job.method.settings.falloff) : -1, job.strata.polar,
+      job.strata.azimuthal, job.method.secondary, job.world.max_depth);
 }
 
 /// One run of `isophote render`, step by step.

@@ -95,6 +95,16 @@ constexpr Option table[] = {
      [](S& s, T t) { s.bound_gradient = on_off(t); }, true},
     {"method", "bound-neighbours", "on|off", "bound radii by those of neighbours",
      [](S& s, T t) { s.bound_neighbours = on_off(t); }, true},
+    {"method", "extrapolate", "0|1|2", "by values alone, gradients, or the Hessian too (default: the method's)",
+     [](S& s, T t) { s.extrapolate = number<int>(t, 0, 2); }, true},
+    {"method", "aspect", "N", "of elliptical footprints at most; 1: disks",
+     [](S& s, T t) { s.aspect = number<float>(t, 1, 1e6); }, true},
+    {"method", "weight", "ward|tent", "how the weight of a record falls towards its rim",
+     [](S& s, T t) {
+       if (t != "ward" && t != "tent") throw UsageError(fmt::format("wants ward or tent, not '{}'", t));
+       s.weight = t == "ward" ? Falloff::ward : Falloff::tent;
+     },
+     true},
     {"method", "seed", "N", "of the random numbers (default: 0)",
      [](S& s, T t) { s.seed = number<std::uint64_t>(t, 0, 9e15); }},
 };
@@ -153,6 +163,12 @@ Method chosen_method(const RenderSettings& s) {
   bounds.gradient = s.bound_gradient.value_or(bounds.gradient);
   bounds.neighbours = s.bound_neighbours.value_or(bounds.neighbours);
   check_order(bounds);
+  method.settings.aspect = s.aspect.value_or(method.settings.aspect);
+  method.settings.falloff = s.weight;
+  if (s.extrapolate.value_or(0) > method.estimator->order)
+    throw UsageError(fmt::format("--extrapolate {}: estimator '{}' gives no such derivatives", *s.extrapolate,
+                                 method.estimator->name));
+  method.order = s.extrapolate.value_or(method.order);
   method.settings.a = s.a ? *s.a : threshold(*method.metric, s.error.value_or(default_error));
   // A cached value has no depth: with a limit on depth, gather rays follow their paths.
   method.secondary = s.secondary.value_or(method.secondary && !s.max_depth);

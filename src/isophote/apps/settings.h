@@ -24,6 +24,9 @@ struct RenderSettings {
   bool lazy = false;
   std::optional<float> min_pixels, max_pixels, min_view, min_radius, max_radius;
   std::optional<bool> bound_gradient, bound_neighbours;
+  std::optional<int> extrapolate;
+  std::optional<float> aspect;
+  std::optional<Falloff> weight;
   std::uint64_t seed = 0;
   std::optional<float> exposure;  ///< stops; none: chosen from the picture
 };

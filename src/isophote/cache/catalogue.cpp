@@ -6,7 +6,7 @@
 
 #include "isophote/core/error.h"
 #include "isophote/derivatives/jarosz_2012.h"
-#include "isophote/derivatives/krivanek_2005.h"
+#include "isophote/derivatives/krivanek_2005a.h"
 #include "isophote/derivatives/schwarzhaupt_2012.h"
 #include "isophote/derivatives/swept_edges.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
@@ -26,11 +26,11 @@ constexpr Estimator estimator_table[] = {
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::classical); }},
     {"ward-heckbert-exact", "[Ward, Heckbert 1992]", "value, gradients (exact rotation weights)", 1,
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact); }},
-    {"krivanek2005", "[Krivanek 2005]", "value, gradients unaware of occlusion", 1, krivanek_2005},
-    {"jarosz2012", "[Jarosz 2012]", "value, gradients, Hessian unaware of occlusion", 2, jarosz_2012},
-    {"schwarzhaupt2012", "[Schwarzhaupt 2012]", "value, gradients, Hessian", 2,
+    {"surface-area", "[Krivanek 2005a]", "value, gradients unaware of occlusion", 1, krivanek_2005a},
+    {"surface-area-hessian", "[Jarosz 2012]", "value, gradients, Hessian unaware of occlusion", 2, jarosz_2012},
+    {"triangulated", "[Schwarzhaupt 2012]", "value, gradients, Hessian", 2,
      [](const HemisphereGather& g) { return schwarzhaupt_2012(g, Horizon::closed); }},
-    {"schwarzhaupt2012-open", "[Schwarzhaupt 2012]", "the same, open at the horizon", 2,
+    {"triangulated-open", "[Schwarzhaupt 2012]", "the same, open at the horizon", 2,
      [](const HemisphereGather& g) { return schwarzhaupt_2012(g, Horizon::open); }},
     {"swept-edges", "", "value, gradients, Hessian", 2, swept_edges},
 };
@@ -135,6 +135,7 @@ Record Method::make_record(const HemisphereGather& gather, const View& view) con
   record.normal = gather.frame.n;
   record.jet = estimator->estimate(gather);
   record.footprint = metric->measure(record.jet, view, settings);
+  if (settings.falloff) record.footprint.falloff = *settings.falloff;
   record.footprint.order = static_cast<std::uint8_t>(std::min(order, estimator->order));
   return record;
 }
@@ -163,9 +164,6 @@ void check_combination(const Method& method) {
   };
   if (method.estimator->order < method.metric->needs)
     throw UsageError(pair() + "this metric needs a Hessian, which this estimator does not give");
-  if (method.order > method.estimator->order)
-    throw UsageError(pair() + "extrapolation to order " + std::to_string(method.order) +
-                     " needs derivatives that this estimator does not give");
   if (method.settings.bounds.gradient && method.estimator->order == 0)
     throw UsageError(pair() + "the bound by the gradient needs a gradient, which this estimator does not give");
   if (!method.metric->bounded && method.settings.bounds != RadiusBounds{})

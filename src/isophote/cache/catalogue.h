@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,7 +15,8 @@ namespace isophote {
 struct MetricSettings {
   float a = 0.2f;  ///< the threshold: the smaller, the more records
   RadiusBounds bounds;
-  float aspect = 1;  ///< of ellipses, at most; 1: disks
+  float aspect = 1;                ///< of ellipses, at most; 1: disks
+  std::optional<Falloff> falloff;  ///< another than the metric's
 };
 
 /// An estimator of `derivatives/`: what the illumination does around a record.

@@ -1,13 +1,13 @@
 #include "isophote/derivatives/jarosz_2012.h"
 
-#include "isophote/derivatives/krivanek_2005.h"
+#include "isophote/derivatives/krivanek_2005a.h"
 #include "isophote/derivatives/surface_sample.h"
 #include "isophote/derivatives/tangent.h"
 
 namespace isophote {
 
 Jet<Rgb> jarosz_2012(const HemisphereGather& gather) {
-  Jet<Rgb> jet = krivanek_2005(gather);
+  Jet<Rgb> jet = krivanek_2005a(gather);
   const Framed frame(gather.frame);
   const double weight = std::numbers::pi / gather.strata.size();
   TangentHessian hessian;

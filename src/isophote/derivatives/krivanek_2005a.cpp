@@ -1,4 +1,4 @@
-#include "isophote/derivatives/krivanek_2005.h"
+#include "isophote/derivatives/krivanek_2005a.h"
 
 #include "isophote/derivatives/surface_sample.h"
 #include "isophote/derivatives/tangent.h"
@@ -6,7 +6,7 @@
 
 namespace isophote {
 
-Jet<Rgb> krivanek_2005(const HemisphereGather& gather) {
+Jet<Rgb> krivanek_2005a(const HemisphereGather& gather) {
   Jet<Rgb> jet = irradiance(gather);
   const Framed frame(gather.frame);
   const double weight = std::numbers::pi / gather.strata.size();
