@@ -41,7 +41,10 @@ class RecordFileTest : public testing::Test {
       r.footprint.smallest = random.number(0, 0.1f);
       r.footprint.largest = i % 2 ? infinity : 3;
       r.footprint.falloff = i % 2 ? Falloff::tent : Falloff::ward;
-      r.footprint.order = static_cast<std::uint8_t>(i % 3 ? 1 : 0);
+      r.footprint.order = static_cast<std::uint8_t>(i % 3);
+      r.curvature_scale = random.number(0, 1e-6f);
+      r.jet.hessian = {random.number(-1, 1), random.number(-1, 1), random.number(-1, 1),
+                       random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
       r.gradient_scale = random.number(0, 1);
       r.jet.value = random.colour(0, 1e6f);
       r.jet.translational = random.gradient(3);
@@ -99,6 +102,8 @@ TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
       EXPECT_EQ(a.footprint.falloff, b.footprint.falloff);
       EXPECT_EQ(a.footprint.order, b.footprint.order);
       EXPECT_EQ(a.gradient_scale, b.gradient_scale);
+      EXPECT_EQ(a.curvature_scale, b.curvature_scale);
+      EXPECT_EQ(a.jet.hessian, b.jet.hessian);
       EXPECT_EQ(a.jet.value, b.jet.value);
       EXPECT_EQ(a.jet.translational, b.jet.translational);
       EXPECT_EQ(a.jet.rotational, b.jet.rotational);
@@ -193,7 +198,10 @@ TEST_F(RecordFileTest, UnusableRecordsWithARightChecksumAreRefused) {
       [&](Record& r) { r.footprint.largest = r.footprint.radius / 2; },
       [&](Record& r) { r.footprint.largest = nan; },
       [&](Record& r) { r.footprint.falloff = static_cast<Falloff>(2); },
-      [&](Record& r) { r.footprint.order = 2; },
+      [&](Record& r) { r.footprint.order = 3; },
+      [&](Record& r) { r.curvature_scale = -1; },
+      [&](Record& r) { r.jet.hessian.xy = nan; },
+      [&](Record& r) { r.curvature_scale = 1, r.jet.hessian.xx = 3e38f; },
       [&](Record& r) { r.gradient_scale = nan; },
       [&](Record& r) { r.gradient_scale = 1.5f; },
       [&](Record& r) { r.jet.value.g = infinity; },

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from program import BOX, SCENES, ProgramTest, quick
 
-METHODS = ("path", "ward1988", "ward1992", "bounded", "uniform", "cached")
+METHODS = ("path", "ward1988", "ward1992", "bounded", "jarosz2012", "schwarzhaupt2012", "swept", "uniform", "cached")
 
 
 class BadUsage(ProgramTest):
@@ -35,6 +35,8 @@ class BadUsage(ProgramTest):
     def test_combinations_that_do_not_exist(self):
         self.refused_render(("--method", "bounded", "--estimator", "irradiance"), "irradiance", "gradient")
         self.refused_render(("--metric", "split-sphere", "--min-pixels", "2"), "split-sphere", "bounded-split-sphere")
+        self.refused_render(("--method", "ward1992", "--metric", "total-error"), "total-error", "ward-heckbert", "Hessian")
+        self.refused_render(("--method", "ward1992", "--extrapolate", "2"), "--extrapolate 2", "ward-heckbert")
         for flags in (("--metric", "uniform"), ("--estimator", "irradiance"), ("--records", "100"), ("--order", "lazy"),
                       ("--save-cache", "c"), ("--load-cache", "c"), ("--show-records", "r.png")):
             self.refused_render(("--method", "path", *flags), "path")

@@ -35,7 +35,7 @@ TEST(Furnace, PathTracingGivesTheSumOfTheSeries) {
 /// Without secondary caching records are independent estimates of the same number.
 TEST(Furnace, RecordsOfPathsAreUnbiased) {
   const Stage stage = furnace();
-  for (const char* name : {"ward1988", "ward1992", "bounded", "uniform"}) {
+  for (const char* name : {"ward1988", "ward1992", "bounded", "jarosz2012", "schwarzhaupt2012", "swept", "uniform"}) {
     SCOPED_TRACE(name);
     Job job = stage.job(method(name, 0.1), 64, 64, 1);
     job.strata = Strata::about(200);
