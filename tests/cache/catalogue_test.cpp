@@ -89,6 +89,9 @@ TEST(Catalogue, RefusalsNameBothSides) {
 TEST(Catalogue, MakesAndSettlesRecordsAsItsPartsSay) {
   HemisphereGather gather{{1, 2, 3}, Frame(Vec3{0, 0.6f, 0.8f}), {4, 12}, std::vector<GatherSample>(48)};
   for (std::size_t i = 0; i < 48; ++i) {
+    const int j = static_cast<int>(i) / 12, k = static_cast<int>(i) % 12;
+    gather.samples[i].direction = gather.frame.to_world(gather.strata.direction(j, k, {0.5f, 0.5f}));
+    gather.samples[i].normal = -gather.samples[i].direction;
     gather.samples[i].distance = 1 + 0.1f * static_cast<float>(i);
     gather.samples[i].radiance = {1, 0.5f, static_cast<float>(i)};
   }

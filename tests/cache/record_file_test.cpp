@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where things lie in a file: magic, version, scene, length of the settings, settings, count, records, checksum.
-constexpr std::size_t settings_at = 24, record_bytes = 162;
+constexpr std::size_t settings_at = 24, record_bytes = 190;
 
 class RecordFileTest : public testing::Test {
  protected:
@@ -119,12 +119,12 @@ TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
 TEST_F(RecordFileTest, IsLittleEndianAndVersioned) {
   write_records(path_, sample(1));
   const std::string content = bytes();
-  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\1\0\0\0", 12));
+  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\2\0\0\0", 12));
   EXPECT_EQ(static_cast<unsigned char>(content[12]), 0xef);  // the scene's lowest byte
   std::string later = content;
-  put_integer(later, 8, 2, 4);
+  put_integer(later, 8, 3, 4);
   put_signed(later);
-  EXPECT_EQ(refusal(), "has version 2, this program reads 1");
+  EXPECT_EQ(refusal(), "has version 3, this program reads 2");
 }
 
 TEST_F(RecordFileTest, EveryFlippedByteIsRefused) {

@@ -15,8 +15,8 @@ namespace isophote {
 struct MetricSettings {
   float a = 0.2f;  ///< the threshold: the smaller, the more records
   RadiusBounds bounds;
-  float aspect = 1;                ///< of ellipses, at most; 1: disks
-  std::optional<Falloff> falloff;  ///< another than the metric's
+  float aspect = 1;                  ///< of ellipses, at most; 1: disks
+  std::optional<Falloff> falloff{};  ///< another than the metric's
 };
 
 /// An estimator of `derivatives/`: what the illumination does around a record.

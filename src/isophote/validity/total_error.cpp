@@ -46,7 +46,7 @@ float error_rate(const Jet<Rgb>& jet, const Vec3& normal, float irradiance) {
 
 Footprint total_error(const Jet<Rgb>& jet, const View& view, float wanted, const RadiusBounds& bounds, float aspect) {
   const Curvature k = curvature(jet, view.normal, view.pilot.irradiance);
-  const double cap = std::min(jet.distances.harmonic_mean, view.scene_scale);
+  const double cap = view.scene_scale / 4;
   const double root = view.pilot.error_rate > 0 ? wanted / view.pilot.error_rate : cap * cap;
   const auto radius = [&](double curvature) {
     return curvature > 0 ? std::min(cap, std::sqrt(root) * std::pow(4 / (pi * curvature), 0.25)) : cap;

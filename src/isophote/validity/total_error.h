@@ -12,8 +12,8 @@ namespace isophote {
 /// its shorter axis.
 ///
 /// `wanted` is the mean relative error to aim at: eps / (pi R^2) averages to it over the visible points if
-/// eps = (wanted / rate)^2, rate being the mean of `error_rate` over them (Pilot). No radius is above the harmonic mean
-/// distance, which a place where the Hessian happens to vanish would else exceed.
+/// eps = (wanted / rate)^2, rate being the mean of `error_rate` over them (Pilot). No radius is above a quarter of
+/// the scene's diagonal, which a place where the Hessian happens to vanish would else exceed.
 Footprint total_error(const Jet<Rgb>& jet, const View& view, float wanted, const RadiusBounds& bounds, float aspect);
 
 /// sqrt((|l1| + |l2|) / (8 pi)) at one place, 1/length. `irradiance` is the picture's mean luminance, of which a
