@@ -24,4 +24,10 @@ constexpr T quadratic_form(const Sym3T<T>& a, const Vec3T<T>& v) {
          2 * (a.xy * v.x * v.y + a.xz * v.x * v.z + a.yz * v.y * v.z);
 }
 
+/// The root of the sum of squares of all nine entries: no eigenvalue is larger.
+template <class T>
+T norm(const Sym3T<T>& a) {
+  return std::sqrt(a.xx * a.xx + a.yy * a.yy + a.zz * a.zz + 2 * (a.xy * a.xy + a.xz * a.xz + a.yz * a.yz));
+}
+
 }  // namespace isophote

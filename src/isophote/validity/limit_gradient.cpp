@@ -16,8 +16,10 @@ void limit_gradient(Record& record, float natural_radius) {
     if (change > room) scale = std::min(scale, room / change);
   }
   record.gradient_scale = scale;
-  const float l = luminance(value);
-  record.curvature_scale = l > 0 ? scale * scale / (2 * l) : 0;
+  const float l = luminance(value), bend = norm(record.jet.hessian) * radius * radius / 2;
+  constexpr float most_bend = 0.25f;  // of the value: beyond, a parabola says little
+  const float left = bend > most_bend * l ? most_bend * l / bend : 1.0f;
+  record.curvature_scale = l > 0 ? std::min(scale * scale, left) / (2 * l) : 0;
 }
 
 }  // namespace isophote
