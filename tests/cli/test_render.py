@@ -141,6 +141,15 @@ class Statistics(ProgramTest):
         self.assertEqual((parameters["secondary"], stats["uncovered"]), (False, 0))
 
 
+    def test_how_records_are_used(self):
+        for flags in (("--extrapolate", "0"), ("--aspect", "1"), ("--weight", "ward"), ()):
+            name = (flags + ("none",))[0].lstrip("-")
+            stats = self.stats(BOX, *quick("--method", "swept", *flags, "-o", name + ".exr"))
+            self.assertEqual(stats["parameters"]["extrapolate"], 0 if name == "extrapolate" else 2)
+        pictures = {(self.folder / (name + ".exr")).read_bytes() for name in ("none", "extrapolate", "aspect", "weight")}
+        self.assertEqual(len(pictures), 4)
+
+
 class SceneFiles(ProgramTest):
     def scene(self, text):
         return str(self.write("scene.toml", f'[scene]\nfile = "{BOX}"\n' + text))

@@ -46,7 +46,7 @@ void expect_deterministic(const Stage& stage, const char* name, int size) {
 
 TEST(Determinism, ThreadsAndRunsDoNotChangeTheCornellBox) {
   const Stage stage("cornell-box.glb");
-  for (const char* name : {"cached", "ward1992", "path"}) expect_deterministic(stage, name, 80);
+  for (const char* name : {"cached", "ward1992", "swept", "path"}) expect_deterministic(stage, name, 80);
 }
 
 TEST(Determinism, ThreadsAndRunsDoNotChangeTheAtrium) {

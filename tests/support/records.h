@@ -48,6 +48,14 @@ inline Record round_record(const Vec3& position, const Vec3& normal, float radiu
   return record;
 }
 
+inline Jet<Rgb> jet_of(float harmonic_mean, Rgb value = Rgb(1), Gradient<Rgb> gradient = {}) {
+  Jet<Rgb> jet;
+  jet.value = value;
+  jet.translational = gradient;
+  jet.distances.harmonic_mean = harmonic_mean;
+  return jet;
+}
+
 /// What the metric's records do to each other.
 inline void settle_bounded(const Settling& settling, std::span<const std::uint32_t> fresh, float a,
                            const RadiusBounds& bounds) {

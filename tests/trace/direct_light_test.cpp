@@ -67,6 +67,20 @@ TEST(DirectLight, DirectionalLightIsExactAndShadowed) {
   EXPECT_NEAR(lit.direct.g, 0.5f / pi * 2 * std::sqrt(0.5f), 1e-6);
 }
 
+/// Direct light as `scatter` has it, and as its parts of which the cached integrator is made.
+struct DirectLight {
+  Estimate whole, parts;
+
+  DirectLight(Stage& stage, const SurfacePoint& point, const Vec3& wo, int samples) {
+    for (int i = 0; i < samples; ++i) {
+      Sampler a = test_sampler(1, i), b = test_sampler(2, i);
+      whole.add(scatter(stage.world, point, wo, 0, a, stage.counts).direct.g);
+      const double d = direct_diffuse(stage.world, point, wo, b, stage.counts).g;
+      parts.add(d + glossy_ray(stage.world, point, wo, b, stage.counts).direct.g);
+    }
+  }
+};
+
 /// A lamp and punctual lights add up, on a diffuse floor and on metal, for `scatter` and for its parts; also where one
 /// of them is hidden, and however strong that one is.
 TEST(DirectLight, LampsAndPunctualLightsAddUp) {
@@ -82,15 +96,9 @@ TEST(DirectLight, LampsAndPunctualLightsAddUp) {
       }
       Stage stage(std::move(scene));
       const SurfacePoint point = stage.hit(wo * 0.5f, -wo);
-      Estimate whole, parts;
-      for (int i = 0; i < 40000; ++i) {
-        Sampler a = test_sampler(1, i), b = test_sampler(2, i);
-        whole.add(scatter(stage.world, point, wo, 0, a, stage.counts).direct.g);
-        const double d = direct_diffuse(stage.world, point, wo, b, stage.counts).g;
-        parts.add(d + glossy_ray(stage.world, point, wo, b, stage.counts).direct.g);
-      }
-      expect_same_mean(whole, parts, 0.02);
-      return whole.mean();
+      const DirectLight seen(stage, point, wo, 40000);
+      expect_same_mean(seen.whole, seen.parts, 0.02);
+      return seen.whole.mean();
     };
     const double lamp = direct(true, false, false), bulb = direct(false, true, false);
     EXPECT_GT(bulb, 0.01);
@@ -191,16 +199,10 @@ void expect_equal_strategies(Scene scene) {
   const Vec3 wo = normalize(Vec3{0.8f, 0.6f, 0.1f});
   const SurfacePoint point = stage.hit(Vec3{0.3f, 0, 0} + wo * 0.5f, -wo);
   const SingleStrategies single(stage, point, wo, 300000);
-  Estimate mis, parts;
-  for (int i = 0; i < 100000; ++i) {
-    Sampler a = test_sampler(1, i), b = test_sampler(2, i);
-    mis.add(scatter(stage.world, point, wo, 0, a, stage.counts).direct.g);
-    const double d = direct_diffuse(stage.world, point, wo, b, stage.counts).g;
-    parts.add(d + glossy_ray(stage.world, point, wo, b, stage.counts).direct.g);
-  }
-  expect_same_mean(mis, single.light, 0.01);
-  expect_same_mean(mis, single.bsdf, 0.02);
-  expect_same_mean(mis, parts, 0.01);
+  const DirectLight mis(stage, point, wo, 100000);
+  expect_same_mean(mis.whole, single.light, 0.01);
+  expect_same_mean(mis.whole, single.bsdf, 0.02);
+  expect_same_mean(mis.whole, mis.parts, 0.01);
 }
 
 TEST(DirectLight, MisEqualsEachSingleStrategy) {

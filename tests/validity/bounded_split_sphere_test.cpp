@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "isophote/validity/limit_gradient.h"
+#include "isophote/validity/limit_extrapolation.h"
 #include "isophote/validity/split_sphere.h"
 #include "support/records.h"
 
@@ -15,13 +15,6 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float a = 0.25f;
 constexpr View view{.pixel = 0.01f, .scene_scale = 10};
 
-Jet<Rgb> jet_of(float harmonic_mean, Rgb value = Rgb(1), Gradient<Rgb> gradient = {}) {
-  Jet<Rgb> jet;
-  jet.value = value;
-  jet.translational = gradient;
-  jet.distances.harmonic_mean = harmonic_mean;
-  return jet;
-}
 float radius(const Jet<Rgb>& jet, const RadiusBounds& bounds, const View& v = view) {
   return bounded_split_sphere(jet, v, a, bounds).radius;
 }
@@ -190,7 +183,7 @@ TEST(NeighbourClamping, KeepsTheLowerBoundAndTheLimitOnGradients) {
     EXPECT_GE(r.footprint.radius, lowest);
     EXPECT_FLOAT_EQ(r.footprint.radius, std::max(lowest, split_sphere_radius(r.footprint.unscaled, a)));
     Record anew = r;  // the limit on extrapolation is that of the final radius, whoever changed it last
-    limit_gradient(anew, r.footprint.unscaled * split_sphere_radius(1, a));
+    limit_extrapolation(anew, r.footprint.unscaled * split_sphere_radius(1, a));
     EXPECT_EQ(r.gradient_scale, anew.gradient_scale);
   }
 }

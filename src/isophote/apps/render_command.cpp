@@ -205,6 +205,7 @@ class Rendering {
       s.estimator = job.method.estimator->name;
       s.metric = job.method.metric->name;
       s.a = job.method.settings.a;
+      s.extrapolate = std::min(job.method.order, job.method.estimator->order);
       s.bounds = describe(job.method.settings.bounds);
     }
     s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;

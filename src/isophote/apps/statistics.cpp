@@ -81,6 +81,7 @@ void Statistics::write_json(const std::string& path) const {
                           {"metric", metric},
                           {"a", a},
                           {"bounds", bounds},
+                          {"extrapolate", extrapolate},
                           {"gather", {strata.polar, strata.azimuthal}},
                           {"order", lazy ? "lazy" : "rounds"},
                           {"secondary", secondary}};

@@ -14,6 +14,7 @@ struct Statistics {
   bool lazy = false, secondary = false, cancelled = false;
   std::optional<double> error_asked;
   float a = 0;
+  int extrapolate = 0;
   Strata strata;
   std::size_t records = 0, rounds = 0, triangles = 0;
   int passes = 0;

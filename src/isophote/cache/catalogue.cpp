@@ -11,7 +11,6 @@
 #include "isophote/derivatives/swept_edges.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
 #include "isophote/validity/bounded_split_sphere.h"
-#include "isophote/validity/limit_gradient.h"
 #include "isophote/validity/settle.h"
 #include "isophote/validity/split_sphere.h"
 #include "isophote/validity/total_error.h"
@@ -68,18 +67,25 @@ constexpr Metric metric_table[] = {
      .a_factor = 1.4f,
      .a_power = 0.5f,
      .measure = [](const Jet<Rgb>&, const View& view, const MetricSettings& s) { return uniform(view, s.a); },
-     .settle =
-         [](const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings&) {
-           for (Record& r : settling.records.subspan(fresh.front(), fresh.size()))
-             limit_gradient(r, r.footprint.radius);
-         }},
+     .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
+                  const MetricSettings& s) { settle_by(settling, fresh, s, 1, 1); }},
 };
 
-constexpr const Estimator &no_gradients = estimator_table[0], &classical = estimator_table[1],
-                          &exact = estimator_table[2], &unaware = estimator_table[4],
-                          &triangulated = estimator_table[5], &swept = estimator_table[7];
-constexpr const Metric &split = metric_table[0], &bounded = metric_table[1], &total = metric_table[2],
-                       &one_radius = metric_table[3];
+/// The row of a name, which must be there for this to compile.
+template <class Table>
+consteval const auto& row(const Table& table, std::string_view name) {
+  for (const auto& entry : table)
+    if (entry.name == name) return entry;
+  throw "there is no such row";
+}
+constexpr const Estimator &no_gradients = row(estimator_table, "irradiance"),
+                          &classical = row(estimator_table, "ward-heckbert"),
+                          &exact = row(estimator_table, "ward-heckbert-exact"),
+                          &unaware = row(estimator_table, "surface-area-hessian"),
+                          &triangulated = row(estimator_table, "triangulated"),
+                          &swept = row(estimator_table, "swept-edges");
+constexpr const Metric &split = row(metric_table, "split-sphere"), &bounded = row(metric_table, "bounded-split-sphere"),
+                       &total = row(metric_table, "total-error"), &one_radius = row(metric_table, "uniform");
 
 constexpr float any_aspect = std::numeric_limits<float>::infinity();
 const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = true};

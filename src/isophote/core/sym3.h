@@ -11,6 +11,22 @@ struct Sym3T {
 
   /// `s` times the identity.
   static constexpr Sym3T scaled_identity(T s) { return {s, 0, 0, s, 0, s}; }
+  /// s v v^T
+  static constexpr Sym3T outer(const Vec3T<T>& v, T s) {
+    return {s * v.x * v.x, s * v.x * v.y, s * v.x * v.z, s * v.y * v.y, s * v.y * v.z, s * v.z * v.z};
+  }
+
+  Sym3T() = default;
+  constexpr Sym3T(T xx_, T xy_, T xz_, T yy_, T yz_, T zz_) : xx(xx_), xy(xy_), xz(xz_), yy(yy_), yz(yz_), zz(zz_) {}
+  template <class S>
+  explicit constexpr Sym3T(const Sym3T<S>& a)
+      : Sym3T(static_cast<T>(a.xx), static_cast<T>(a.xy), static_cast<T>(a.xz), static_cast<T>(a.yy),
+              static_cast<T>(a.yz), static_cast<T>(a.zz)) {}
+
+  constexpr Sym3T operator+(const Sym3T& o) const {
+    return {xx + o.xx, xy + o.xy, xz + o.xz, yy + o.yy, yz + o.yz, zz + o.zz};
+  }
+  constexpr Sym3T operator*(T s) const { return {xx * s, xy * s, xz * s, yy * s, yz * s, zz * s}; }
   constexpr bool operator==(const Sym3T&) const = default;
 };
 

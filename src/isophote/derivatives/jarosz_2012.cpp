@@ -8,17 +8,14 @@ namespace isophote {
 
 Jet<Rgb> jarosz_2012(const HemisphereGather& gather) {
   Jet<Rgb> jet = krivanek_2005a(gather);
-  const Framed frame(gather.frame);
-  const double weight = std::numbers::pi / gather.strata.size();
   TangentHessian hessian;
-  for (const GatherSample& sample : gather.samples) {
-    const SurfaceSample s(sample, frame);
-    const double light = luminance(Rgbd(sample.radiance)) * weight * s.inverse_distance * s.inverse_distance;
+  for_each_surface_sample(gather, [&](const SurfaceSample& s) {
+    const double light = luminance(s.irradiance) * s.inverse_distance * s.inverse_distance;
     const Vec3d &w = s.direction, &n = s.tilt;
     hessian.uu += light * (24 * w.x * w.x + 8 * n.x * w.x - 4);
     hessian.uv += light * (24 * w.x * w.y + 4 * (n.x * w.y + n.y * w.x));
     hessian.vv += light * (24 * w.y * w.y + 8 * n.y * w.y - 4);
-  }
+  });
   jet.hessian = hessian.to_world(gather.frame);
   return jet;
 }

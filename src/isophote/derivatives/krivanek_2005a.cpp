@@ -8,15 +8,12 @@ namespace isophote {
 
 Jet<Rgb> krivanek_2005a(const HemisphereGather& gather) {
   Jet<Rgb> jet = irradiance(gather);
-  const Framed frame(gather.frame);
-  const double weight = std::numbers::pi / gather.strata.size();
   TangentGradient gradient;
-  for (const GatherSample& sample : gather.samples) {
-    const SurfaceSample s(sample, frame);
-    const Rgbd light = Rgbd(sample.radiance) * (weight * s.inverse_distance);
+  for_each_surface_sample(gather, [&](const SurfaceSample& s) {
+    const Rgbd light = s.irradiance * s.inverse_distance;
     gradient.u += light * (4 * s.direction.x + s.tilt.x);
     gradient.v += light * (4 * s.direction.y + s.tilt.y);
-  }
+  });
   jet.translational = gradient.to_world(gather.frame);
   jet.rotational = rotational_gradient(gather, RotationWeights::exact);
   return jet;

@@ -40,10 +40,7 @@ struct TangentHessian {
 
   Sym3 to_world(const Frame& frame) const {
     const Framed f(frame);
-    const auto entry = [&](int i, int j) {
-      return static_cast<float>(uu * f.u[i] * f.u[j] + uv * (f.u[i] * f.v[j] + f.v[i] * f.u[j]) + vv * f.v[i] * f.v[j]);
-    };
-    return {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+    return Sym3(Sym3d::outer(f.u, uu - uv) + Sym3d::outer(f.v, vv - uv) + Sym3d::outer(f.u + f.v, uv));
   }
 };
 

@@ -36,17 +36,15 @@ struct Footprint {
 
   /// Makes the region of a disk thinner along the unit vector n, where it then ends at `height` <= radius.
   void flatten(const Vec3& n, float height) {
-    const float base = 1 / (radius * radius), more = 1 / (height * height) - base;
-    shape = {base + more * n.x * n.x, more * n.x * n.y, more * n.x * n.z,
-             base + more * n.y * n.y, more * n.y * n.z, base + more * n.z * n.z};
+    const float base = 1 / (radius * radius);
+    shape = Sym3::scaled_identity(base) + Sym3::outer(n, 1 / (height * height) - base);
   }
 
   /// Scales the region so that its radius is `wanted`, or the nearest of its bounds.
   void resize(float wanted) {
     wanted = std::max(smallest, std::min(largest, wanted));
-    const float ratio = radius / wanted, factor = ratio * ratio;
-    shape = {shape.xx * factor, shape.xy * factor, shape.xz * factor,
-             shape.yy * factor, shape.yz * factor, shape.zz * factor};
+    const float ratio = radius / wanted;
+    shape = shape * (ratio * ratio);
     radius = wanted;
   }
 };

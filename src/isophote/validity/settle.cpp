@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "isophote/validity/limit_gradient.h"
+#include "isophote/validity/limit_extrapolation.h"
 
 namespace isophote {
 namespace {
@@ -14,7 +14,7 @@ constexpr float least_height = 0.25f;
 /// its surface only: what lies above, on a step or a table, may be lit quite otherwise.
 void settle_raised(Record& record, const SettleRule& rule) {
   const float natural = record.footprint.unscaled * rule.scale, radius = record.footprint.radius;
-  limit_gradient(record, natural);
+  limit_extrapolation(record, natural);
   if (natural < radius) record.footprint.flatten(record.normal, std::max(natural, least_height * radius));
 }
 

@@ -18,8 +18,7 @@ struct Curvature {
 
 Curvature curvature(const Jet<Rgb>& jet, const Vec3& normal, float irradiance) {
   const Framed frame{Vec3d(normal)};
-  const Sym3& h = jet.hessian;
-  const Sym3d hessian{h.xx, h.xy, h.xz, h.yy, h.yz, h.zz};
+  const Sym3d hessian(jet.hessian);
   const double uu = quadratic_form(hessian, frame.u), vv = quadratic_form(hessian, frame.v);
   const double uv = (quadratic_form(hessian, frame.u + frame.v) - uu - vv) / 2;
   // Axes from the signed form: of a saddle the absolute values say nothing.
@@ -64,12 +63,8 @@ Footprint total_error(const Jet<Rgb>& jet, const View& view, float wanted, const
   footprint.falloff = Falloff::tent;
   footprint.smallest = range.smallest, footprint.largest = range.largest;
   footprint.radius = footprint.unscaled = static_cast<float>(longer);
-  const double x = 1 / (first * first), y = 1 / (second * second), z = 1 / (shorter * shorter);
-  const Vec3d n(view.normal);
-  const auto entry = [&](int i, int j) {
-    return static_cast<float>(x * k.axis[i] * k.axis[j] + y * k.across[i] * k.across[j] + z * n[i] * n[j]);
-  };
-  footprint.shape = {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+  footprint.shape = Sym3(Sym3d::outer(k.axis, 1 / (first * first)) + Sym3d::outer(k.across, 1 / (second * second)) +
+                         Sym3d::outer(Vec3d(view.normal), 1 / (shorter * shorter)));
   footprint.resize(footprint.radius);
   return footprint;
 }

@@ -8,6 +8,6 @@ namespace isophote {
 /// each channel, and where the radius was raised to its lower bound from r, the gradient is scaled by r / R [Krivanek
 /// 2006]. The Hessian is scaled so that it bends the value by no more than a quarter of its luminance. `natural_radius`
 /// is r: what the radius would be without the lower bound. Called again whenever the radius changes.
-void limit_gradient(Record& record, float natural_radius);
+void limit_extrapolation(Record& record, float natural_radius);
 
 }  // namespace isophote

@@ -1,10 +1,10 @@
-#include "isophote/validity/limit_gradient.h"
+#include "isophote/validity/limit_extrapolation.h"
 
 #include <algorithm>
 
 namespace isophote {
 
-void limit_gradient(Record& record, float natural_radius) {
+void limit_extrapolation(Record& record, float natural_radius) {
   const auto& g = record.jet.translational;
   const Rgb& value = record.jet.value;
   const float radius = record.footprint.radius;
