@@ -23,8 +23,7 @@ constexpr int most_passes = 16;
 /// An uncovered point of the picture. `reach` is the radius that a record here is expected to have: that of the record
 /// nearest in terms of its own footprint.
 struct Candidate {
-  Place place;
-  std::uint64_t rank = 0;  ///< its turn, by a hash of its pixel: well spread
+  Place place;  ///< its key is also its turn: well spread
   float nearest = infinity;
   float reach = 0;
 
@@ -74,10 +73,10 @@ class Builder {
     share_ = (1 - done_) / left;
   }
 
-  void add_uncovered(const FirstPoint& seen, std::uint64_t rank, std::vector<Candidate>& found) const {
-    const std::optional<Place> place = place_of(job_, seen);
+  void add_uncovered(const FirstPoint& seen, std::uint64_t key, std::vector<Candidate>& found) const {
+    const std::optional<Place> place = place_of(job_, seen, key);
     if (!place || cache_.covers({place->position, place->normal, place->normal})) return;
-    Candidate candidate{*place, rank};
+    Candidate candidate{*place};
     cache_.visit_near(place->position, [&](const Record& record) { candidate.meet(record); });
     found.push_back(candidate);
   }
@@ -97,7 +96,7 @@ class Builder {
     return next;
   }
 
-  /// The uncovered points that sample `sample` of every stride-th pixel sees, by itself and reflected, ordered by rank.
+  /// The uncovered points that sample `sample` of every stride-th pixel sees, by itself and reflected, ordered by key.
   std::vector<Candidate> uncovered(int stride, int sample) {
     const auto columns = static_cast<std::size_t>((job_.width + stride - 1 - stride / 2) / stride);
     const auto rows = static_cast<std::size_t>((job_.height + stride - 1 - stride / 2) / stride);
@@ -107,14 +106,14 @@ class Builder {
         const int x = stride / 2 + static_cast<int>(column) * stride, y = stride / 2 + static_cast<int>(row) * stride;
         Sampler stream = job_.sampler(x, y, sample);
         const FirstPoint seen = first_point(job_.world, job_.camera_ray(x, y, stream), true, stream, counts.camera);
-        std::uint64_t rank = hash(job_.seed, x, y, sample);
-        add_uncovered(seen, rank, found[row]);
-        if (shines(seen)) add_uncovered(reflected(seen, stream, counts), ++rank, found[row]);
+        const std::uint64_t key = hash(job_.seed, x, y, sample);
+        add_uncovered(seen, key, found[row]);
+        if (shines(seen)) add_uncovered(reflected(seen, stream, counts), hash(key), found[row]);
       }
     });
     std::vector<Candidate> all;
     for (const auto& row : found) all.insert(all.end(), row.begin(), row.end());
-    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.rank < b.rank; });
+    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.place.key < b.place.key; });
     return all;
   }
 
@@ -170,11 +169,10 @@ class Builder {
   }
 
   std::vector<std::uint32_t> add_records(const std::vector<Place>& places) {
-    const std::size_t base = cache_.records().size();
     std::vector<Record> made(places.size());
     report_.rays += for_each(job_.parallel, places.size(), 1, [&](std::size_t i, RayCounts& counts) {
       thread_local HemisphereGather scratch;
-      made[i] = make_record(job_, cache_, places[i], base + i, scratch, counts);
+      made[i] = make_record(job_, cache_, places[i], scratch, counts);
     });
     std::vector<std::uint32_t> fresh;
     fresh.reserve(made.size());
@@ -191,17 +189,17 @@ class Builder {
 
 }  // namespace
 
-std::optional<Place> place_of(const Job& job, const FirstPoint& seen) {
+std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint64_t key) {
   if (!seen.point || !seen.point->bsdf.has_diffuse() || seen.depth + 1 >= job.world.max_depth) return std::nullopt;
   if (seen.depth > 0 && job.world.max_depth < std::numeric_limits<int>::max()) return std::nullopt;  // see shade()
   const SurfacePoint& p = *seen.point;
   const float pixel = job.pixel_footprint(seen.path_length);
-  return Place{p.position, p.geometric_normal, p.shading_normal, pixel, p.offset, p.medium};
+  return Place{p.position, p.geometric_normal, p.shading_normal, pixel, p.offset, p.medium, key};
 }
 
-Record make_record(const Job& job, const RecordCache& cache, const Place& place, std::size_t id,
-                   HemisphereGather& scratch, RayCounts& counts) {
-  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), job.seed, id);
+Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
+                   RayCounts& counts) {
+  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), place.key);
   gather_hemisphere(job.world, job.method.secondary ? &cache : nullptr, place, job.strata, key, scratch, counts);
   return job.method.make_record(scratch, {place.pixel, place.pixel * static_cast<float>(job.height),
                                           job.world.rays.scene_scale(), place.normal, job.pilot});

@@ -20,12 +20,13 @@ struct BuildReport {
 /// are kept.
 BuildReport build_in_rounds(const Job& job, RecordCache& cache);
 
-/// The record with the index `id` at a place.
-Record make_record(const Job& job, const RecordCache& cache, const Place& place, std::size_t id,
-                   HemisphereGather& scratch, RayCounts& counts);
+/// The record at a place. Its random numbers depend on the place's key alone, not on the records before it.
+Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
+                   RayCounts& counts);
 
-/// The place a camera sample asks to be covered; none where it meets nothing that scatters diffusely.
-std::optional<Place> place_of(const Job& job, const FirstPoint& seen);
+/// The place a camera sample asks to be covered, with the sample's key where something is to be computed; none
+/// where it meets nothing that scatters diffusely.
+std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint64_t key = 0);
 
 /// An empty cache over the job's scene.
 RecordCache empty_cache(const Job& job);

@@ -10,10 +10,11 @@ namespace isophote {
 struct Place {
   Vec3 position;
   Vec3 geometric_normal;
-  Vec3 normal;       ///< interpolated: the hemisphere is about it
-  float pixel = 0;   ///< length a pixel spans there
-  float offset = 0;  ///< SurfacePoint::offset
-  Rgb medium{};      ///< SurfacePoint::medium
+  Vec3 normal;            ///< interpolated: the hemisphere is about it
+  float pixel = 0;        ///< length a pixel spans there
+  float offset = 0;       ///< SurfacePoint::offset
+  Rgb medium{};           ///< SurfacePoint::medium
+  std::uint64_t key = 0;  ///< seeds what is computed here: a hash of the camera sample that asked
 };
 
 /// One ray into each stratum of the hemisphere above `place`. Radiance is a path's, or, where `cache` is not null and

@@ -149,11 +149,11 @@ LazyReport render_lazily(const Job& asked, RecordCache& cache, Film& film) {
         Sampler stream = job.sampler(x, y, s);
         const Ray ray = job.camera_ray(x, y, stream);
         const FirstPoint seen = first_point(job.world, ray, true, stream, report.final.rays.camera);
-        const std::optional<Place> place = place_of(job, seen);
+        const std::optional<Place> place = place_of(job, seen, hash(job.seed, x, y, s));
         if (place && !report.final.cancelled && !cache.covers({place->position, place->normal, place->normal})) {
           const Clock before = Clock::now();
           const auto id = static_cast<std::uint32_t>(cache.records().size());
-          cache.insert(make_record(job, cache, *place, id, scratch, report.build_rays));
+          cache.insert(make_record(job, cache, *place, scratch, report.build_rays));
           job.method.settle(cache.settling(), {&id, 1});
           report.build += Clock::now() - before;
         }
