@@ -197,7 +197,7 @@ TEST_F(RecordFileTest, UnusableRecordsWithARightChecksumAreRefused) {
       [&](Record& r) { r.footprint.smallest = r.footprint.radius * 2; },
       [&](Record& r) { r.footprint.largest = r.footprint.radius / 2; },
       [&](Record& r) { r.footprint.largest = nan; },
-      [&](Record& r) { r.footprint.falloff = static_cast<Falloff>(2); },
+      [&](Record& r) { r.footprint.falloff = static_cast<Falloff>(3); },
       [&](Record& r) { r.footprint.order = 3; },
       [&](Record& r) { r.curvature_scale = -1; },
       [&](Record& r) { r.jet.hessian.xy = nan; },

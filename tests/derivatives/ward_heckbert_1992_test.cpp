@@ -67,6 +67,9 @@ double rms_error(const AnalyticRoom& room, const FloorPoint& p, Strata strata, i
 Vec3d translational(const HemisphereGather& g) {
   return channel(ward_heckbert_1992(g, RotationWeights::exact).translational);
 }
+Vec3d translational_harmonic(const HemisphereGather& g) {
+  return channel(ward_heckbert_1992(g, RotationWeights::exact, WallDistance::harmonic).translational);
+}
 Vec3d rotational(const HemisphereGather& g) {
   return channel(ward_heckbert_1992(g, RotationWeights::exact).rotational);
 }
@@ -104,8 +107,11 @@ TEST(WardHeckbert, TranslationalGradientConvergesToFirstOrder) {
   const struct {
     int point;
     bool rectangle;
-    double coarse, fine;
-  } rows[] = {{0, false, 0.084, 0.042}, {0, true, 0.045, 0.023}, {1, true, 0.17, 0.079}, {2, true, 0.081, 0.036}};
+    double coarse, fine, harmonic_coarse, harmonic_fine;
+  } rows[] = {{0, false, 0.084, 0.042, 0.042, 0.018},
+              {0, true, 0.045, 0.023, 0.030, 0.018},
+              {1, true, 0.17, 0.079, 0.18, 0.086},
+              {2, true, 0.081, 0.036, 0.074, 0.031}};
   std::printf("translational gradient, rms error in %%, 16x50 and 32x100, and order of convergence\n");
   for (const auto& row : rows) {
     const AnalyticRoom room(Walls::smooth, row.rectangle);
@@ -120,6 +126,11 @@ TEST(WardHeckbert, TranslationalGradientConvergesToFirstOrder) {
     EXPECT_LT(fine, 1.3 * row.fine) << p.name;
     EXPECT_GT(order, 0.8) << p.name;
     EXPECT_LT(order, 1.5) << p.name;
+    const double harmonic_coarse = rms_error(room, p, {16, 50}, 96, truth, translational_harmonic);
+    const double harmonic_fine = rms_error(room, p, {32, 100}, 96, truth, translational_harmonic);
+    std::printf("     one surface at its harmonic mean: %5.2f %5.2f\n", 100 * harmonic_coarse, 100 * harmonic_fine);
+    EXPECT_LT(harmonic_coarse, 1.3 * row.harmonic_coarse) << p.name;
+    EXPECT_LT(harmonic_fine, 1.3 * row.harmonic_fine) << p.name;
   }
 }
 

@@ -33,12 +33,13 @@ std::string record_settings(const Job& job) {
   const RadiusBounds& b = job.method.settings.bounds;
   return fmt::format(
       "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmin-radius={}\nmax-radius={}\n"
-      "bound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}x{}\nsecondary={}\n"
+      "bound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}\nsecondary={}\n"
       "max-depth={}\n",
       job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels,
       b.min_view, b.min_length, b.max_length, b.gradient, b.neighbours, job.method.settings.aspect, job.method.order,
-      job.method.settings.falloff ? static_cast<int>(*job.method.settings.falloff) : -1, job.strata.polar,
-      job.strata.azimuthal, job.method.secondary, job.world.max_depth);
+      job.method.settings.falloff ? static_cast<int>(*job.method.settings.falloff) : -1,
+      job.method.adaptive ? "auto" : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal), job.method.secondary,
+      job.world.max_depth);
 }
 
 /// One run of `isophote render`, step by step.
@@ -94,7 +95,8 @@ class Rendering {
     job.samples = settings_.samples;
     job.seed = settings_.seed;
     job.method = method;
-    job.strata = Strata::about(settings_.rays);
+    const int rays = settings_.rays.value_or(0);
+    job.strata = Strata::about(rays > 0 ? rays : default_rays);
     job.parallel = threads_.parallel_for();
     job.progress.report = [this](std::string_view phase, double done) { display_.show(phase, done); };
     job.progress.cancelled = Interruptible::interrupted;
@@ -208,7 +210,8 @@ class Rendering {
       s.extrapolate = std::min(job.method.order, job.method.estimator->order);
       s.bounds = describe(job.method.settings.bounds);
     }
-    s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
+    s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata,
+    s.adaptive = job.method.adaptive;
     // Where a threshold or a number of records was given, no error was asked for.
     if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
     s.seed = settings_.seed, s.threads = threads_.count();

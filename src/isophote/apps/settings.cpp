@@ -43,6 +43,13 @@ void size(RenderSettings& s, const std::string& text) {
   s.height = number<int>(text.substr(cross + 1), 1, 32768);
 }
 
+Falloff falloff(const std::string& text) {
+  if (text == "ward") return Falloff::ward;
+  if (text == "tent") return Falloff::tent;
+  if (text == "tabellion") return Falloff::tabellion;
+  throw UsageError(fmt::format("wants ward, tent or tabellion, not '{}'", text));
+}
+
 using S = RenderSettings;  // the two parameter types of every line below
 using T = const std::string&;
 
@@ -69,8 +76,11 @@ constexpr Option table[] = {
      [](S& s, T t) { s.a = number<float>(t, 1e-4, greatest_threshold), s.error.reset(), s.records.reset(); }, true},
     {"method", "records", "N", "solve for the threshold that gives about N records",
      [](S& s, T t) { s.records = number<int>(t, 1, 10'000'000), s.error.reset(), s.a.reset(); }, true},
-    {"method", "rays", "N", "gather rays of a record (default: 800); method path ignores it",
-     [](S& s, T t) { s.rays = number<int>(t, 12, 1 << 24); }},
+    {"method", "rays", "N|auto",
+     "gather rays of a record; auto: as many as the wanted error asks (default: auto for method cached, 800 for "
+     "others; "
+     "method path ignores it)",
+     [](S& s, T t) { s.rays = t == "auto" ? 0 : number<int>(t, 12, 1 << 24); }},
     {"method", "secondary", "on|off", "do gather rays read the cache where they hit?",
      [](S& s, T t) { s.secondary = on_off(t); }, true},
     {"method", "max-depth", "N", "scattering events after the camera; 1 is direct light (default: no limit)",
@@ -99,12 +109,8 @@ constexpr Option table[] = {
      [](S& s, T t) { s.extrapolate = number<int>(t, 0, 2); }, true},
     {"method", "aspect", "N", "of elliptical footprints at most; 1: disks",
      [](S& s, T t) { s.aspect = number<float>(t, 1, 1e6); }, true},
-    {"method", "weight", "ward|tent", "how the weight of a record falls towards its rim",
-     [](S& s, T t) {
-       if (t != "ward" && t != "tent") throw UsageError(fmt::format("wants ward or tent, not '{}'", t));
-       s.weight = t == "ward" ? Falloff::ward : Falloff::tent;
-     },
-     true},
+    {"method", "weight", "ward|tent|tabellion", "how the weight of a record falls towards its rim",
+     [](S& s, T t) { s.weight = falloff(t); }, true},
     {"method", "seed", "N", "of the random numbers (default: 0)",
      [](S& s, T t) { s.seed = number<std::uint64_t>(t, 0, 9e15); }},
 };
@@ -173,6 +179,7 @@ Method chosen_method(const RenderSettings& s) {
   // A cached value has no depth: with a limit on depth, gather rays follow their paths.
   method.secondary = s.secondary.value_or(method.secondary && !s.max_depth);
   if (method.secondary && s.max_depth) throw UsageError("--secondary on has no limit of depth: leave out --max-depth");
+  if (s.rays) method.adaptive = *s.rays == 0;
   check_combination(method);
   return method;
 }

@@ -18,7 +18,7 @@ struct RenderSettings {
   int samples = 16;
   std::optional<double> error;  ///< none: default_error
   std::optional<float> a;
-  int rays = 800;
+  std::optional<int> rays;  ///< of a record; 0: as many as the error asks; none: the method's own
   std::optional<int> max_depth, records;
   std::optional<bool> secondary;
   bool lazy = false;
@@ -33,6 +33,8 @@ struct RenderSettings {
 
 /// Wanted mean relative error where neither an error, a threshold nor a number of records is given.
 inline constexpr double default_error = 0.02;
+/// Rays of a record where they do not adapt and no number is given.
+inline constexpr int default_rays = 800;
 
 /// One setting: `--name VALUE` on the command line, `name = VALUE` in a scene file's [film] or [method] table.
 struct Option {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "isophote/core/atomic_file.h"
@@ -19,9 +20,11 @@ void Statistics::print() const {
   if (cancelled) fmt::print("interrupted: the picture is not finished\n");
   fmt::print("{} x {} pixels, {} triangles, method {}\n", width, height, triangles, method);
   if (!estimator.empty()) {
-    fmt::print("  records    {} ({} x {} rays each, {} order{}), {} of {} samples uncovered\n", records, strata.polar,
-               strata.azimuthal, lazy ? "lazy" : "rounds", lazy ? "" : fmt::format(", {} rounds", rounds), uncovered,
-               samples);
+    const double mean_rays = static_cast<double>(rays.gather) / static_cast<double>(std::max<std::size_t>(records, 1));
+    fmt::print("  records    {} ({}, {} order{}), {} of {} samples uncovered\n", records,
+               adaptive ? fmt::format("{:.0f} rays each in the mean", mean_rays)
+                        : fmt::format("{} x {} rays each", strata.polar, strata.azimuthal),
+               lazy ? "lazy" : "rounds", lazy ? "" : fmt::format(", {} rounds", rounds), uncovered, samples);
     fmt::print("  threshold  a = {}, estimator {}, metric {}, secondary {}\n", a, estimator, metric,
                secondary ? "on" : "off");
     fmt::print("  bounds     {}\n", bounds);
@@ -82,7 +85,7 @@ void Statistics::write_json(const std::string& path) const {
                           {"a", a},
                           {"bounds", bounds},
                           {"extrapolate", extrapolate},
-                          {"gather", {strata.polar, strata.azimuthal}},
+                          {"gather", adaptive ? Json("auto") : Json{strata.polar, strata.azimuthal}},
                           {"order", lazy ? "lazy" : "rounds"},
                           {"secondary", secondary}};
   const Json asked = error_asked ? Json(*error_asked) : Json(nullptr);

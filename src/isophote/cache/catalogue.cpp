@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <cstdlib>
 
 #include "isophote/core/error.h"
 #include "isophote/derivatives/jarosz_2012.h"
@@ -25,6 +26,8 @@ constexpr Estimator estimator_table[] = {
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::classical); }},
     {"ward-heckbert-exact", "[Ward, Heckbert 1992]", "value, gradients (exact rotation weights)", 1,
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact); }},
+    {"ward-heckbert-harmonic", "[Ward, Heckbert 1992]", "the same, walls on one surface at their harmonic mean", 1,
+     [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact, WallDistance::harmonic); }},
     {"surface-area", "[Krivanek 2005a]", "value, gradients unaware of occlusion", 1, krivanek_2005a},
     {"surface-area-hessian", "[Jarosz 2012]", "value, gradients, Hessian unaware of occlusion", 2, jarosz_2012},
     {"triangulated", "[Schwarzhaupt 2012]", "value, gradients, Hessian", 2,
@@ -141,9 +144,17 @@ Record Method::make_record(const HemisphereGather& gather, const View& view) con
   record.normal = gather.frame.n;
   record.jet = estimator->estimate(gather);
   record.footprint = metric->measure(record.jet, view, settings);
-  if (settings.falloff) record.footprint.falloff = *settings.falloff;
+  if (settings.falloff) record.footprint.set_falloff(*settings.falloff);
   record.footprint.order = static_cast<std::uint8_t>(std::min(order, estimator->order));
   return record;
+}
+
+double Method::error() const { return std::pow(settings.a / metric->a_factor, 1 / metric->a_power); }
+
+float Method::noise() const {
+  // A value is read from a few records, whose errors average out in part, and of the mean of their size.
+  const double of_error = getenv("ISO_N") ? atof(getenv("ISO_N")) : 1;
+  return static_cast<float>(of_error * error());
 }
 
 void Method::settle(const Settling& settling, std::span<const std::uint32_t> fresh) const {

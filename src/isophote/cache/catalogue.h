@@ -46,8 +46,13 @@ struct Method {
   MetricSettings settings{};
   int order = 0;           ///< of extrapolation, at most what the estimator gives
   bool secondary = false;  ///< gather rays read the cache where they hit
+  bool adaptive = false;   ///< each record gathers as many rays as its own noise needs
 
   bool caches() const { return estimator != nullptr; }
+  /// The mean relative error that the threshold aims at; and the standard error of a record, relative to its value,
+  /// that goes with it where rays adapt.
+  double error() const;
+  float noise() const;
   Record make_record(const HemisphereGather& gather, const View& view) const;
   void settle(const Settling& settling, std::span<const std::uint32_t> fresh) const;
 };

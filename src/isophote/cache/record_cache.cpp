@@ -21,11 +21,13 @@ float footprint_error(const Record& record, const Vec3& position, const Vec3& no
   if (dot(normal, record.normal) <= 0) return infinity;
   if (dot(q, normal + record.normal) < -2 * in_front * record.footprint.radius) return infinity;
   // Of the difference, not of 1 - cosine, which rounding keeps from being 0 where the normals are equal.
-  return std::sqrt(distance) + record.footprint.normal_scale * std::sqrt(length_squared(normal - record.normal) / 2);
+  const float away = std::sqrt(distance),
+              turned = record.footprint.normal_scale * std::sqrt(length_squared(normal - record.normal) / 2);
+  return record.footprint.falloff == Falloff::tabellion ? std::max(away, turned) : away + turned;
 }
 
 float falloff_weight(Falloff falloff, float error) {
-  return falloff == Falloff::tent ? 1 - error : 1 / std::max(error, 1e-6f) - 1;
+  return falloff == Falloff::ward ? 1 / std::max(error, 1e-6f) - 1 : 1 - error;
 }
 
 std::uint32_t RecordCache::insert(const Record& record) {

@@ -125,7 +125,7 @@ bool usable(const Record& r) {
   const bool placed = is_finite(r.position) && std::abs(length(r.normal) - 1) < 1e-3f;
   const bool sized = within(f.normal_scale, 0, most) && within(f.unscaled, 0, most) &&
                      within(f.smallest, 0, f.radius) && f.largest >= f.radius;
-  return placed && shaped(f) && sized && static_cast<int>(f.falloff) <= static_cast<int>(Falloff::tent) &&
+  return placed && shaped(f) && sized && static_cast<int>(f.falloff) <= static_cast<int>(Falloff::tabellion) &&
          f.order <= 2 && within(r.gradient_scale, 0, 1) && bounded(r.jet, f.radius) && curved(r);
 }
 

@@ -30,6 +30,7 @@ struct Jet {
   Gradient<V> translational;  ///< the position moves, the normal stays
   Gradient<V> rotational;     ///< the normal turns, the position stays
   Sym3 hessian;               ///< of luminance, per square metre, in the tangent plane; zero where none is estimated
+  float standard_error = 0;   ///< of the value's luminance, from what made it
   DistanceStats distances;
 };
 

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "isophote/core/check.h"
+#include "isophote/derivatives/standard_error.h"
 #include "isophote/derivatives/tangent.h"
 
 namespace isophote {
@@ -36,23 +37,44 @@ Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeight
 
 namespace {
 
-/// The radiance step from `from` to `to` over the wall between them, over the wall's distance: the nearer of the two,
-/// since it is the nearer surface that covers and uncovers the other. Between two samples of the sky nothing moves.
-Rgbd step(const GatherSample& from, const GatherSample& to) {
-  if (from.surface == GatherSample::own_surface || to.surface == GatherSample::own_surface) return {};
-  return (Rgbd(to.radiance) - Rgbd(from.radiance)) / static_cast<double>(std::min(from.distance, to.distance));
+/// Inverse distance, in the direction `w`, of the tangent plane of a sample.
+float inverse_along(const GatherSample& s, const Vec3& w) {
+  return dot(s.normal, w) / (dot(s.normal, s.direction) * s.distance);
 }
 
-Gradient<Rgb> translational_gradient(const HemisphereGather& gather) {
+/// Do two neighbours lie on one surface, or on two that meet at the wall between them: are their tangent planes about
+/// equally far there? (Whether they belong to one mesh does not matter: depth is continuous where walls meet.)
+bool one_surface(const GatherSample& p, const GatherSample& q) {
+  constexpr float tolerance = 1.3f;
+  if (p.distance == infinity || q.distance == infinity) return false;
+  const Vec3 wall = normalize(p.direction + q.direction);
+  const float a = inverse_along(p, wall), b = inverse_along(q, wall);
+  return a > 0 && b > 0 && a < tolerance * b && b < tolerance * a;
+}
+
+float inverse_distance(const GatherSample& p, const GatherSample& q, WallDistance distance) {
+  const float a = 1 / p.distance, b = 1 / q.distance;
+  return distance == WallDistance::harmonic && one_surface(p, q) ? (a + b) / 2 : std::max(a, b);
+}
+
+/// The radiance step from `from` to `to` over the wall between them, over the wall's distance: across a step the nearer
+/// surface covers and uncovers the other. Between two samples of the sky nothing moves.
+Rgbd step(const GatherSample& from, const GatherSample& to, WallDistance distance) {
+  if (from.surface == GatherSample::own_surface || to.surface == GatherSample::own_surface) return {};
+  return (Rgbd(to.radiance) - Rgbd(from.radiance)) * static_cast<double>(inverse_distance(from, to, distance));
+}
+
+Gradient<Rgb> translational_gradient(const HemisphereGather& gather, WallDistance distance) {
   const Strata& s = gather.strata;
   TangentGradient result;
   for (int k = 0; k < s.azimuthal; ++k) {
     const int before = (k + s.azimuthal - 1) % s.azimuthal;
     Rgbd outward, across;
     for (int j = 0; j < s.polar; ++j) {
+      const GatherSample& here = gather.at(j, k);
       const double sin_inner = s.sin_edge(j), cos_inner = s.cos_edge(j);
-      if (j > 0) outward += step(gather.at(j - 1, k), gather.at(j, k)) * (sin_inner * cos_inner * cos_inner);
-      across += step(gather.at(j, before), gather.at(j, k)) * (s.sin_edge(j + 1) - sin_inner);
+      if (j > 0) outward += step(gather.at(j - 1, k), here, distance) * (sin_inner * cos_inner * cos_inner);
+      across += step(gather.at(j, before), here, distance) * (s.sin_edge(j + 1) - sin_inner);
     }
     result.add(azimuth(s, k + 0.5), outward * (2 * half_turn / s.azimuthal));
     result.add_across(azimuth(s, k), across);
@@ -73,13 +95,14 @@ Jet<Rgb> irradiance(const HemisphereGather& gather) {
   const double n = gather.strata.size();
   Jet<Rgb> jet;
   jet.value = Rgb(sum * (half_turn / n));
+  jet.standard_error = static_cast<float>(standard_error(gather));
   jet.distances.harmonic_mean = static_cast<float>(n / inverse_distances);
   return jet;
 }
 
-Jet<Rgb> ward_heckbert_1992(const HemisphereGather& gather, RotationWeights weights) {
+Jet<Rgb> ward_heckbert_1992(const HemisphereGather& gather, RotationWeights weights, WallDistance distance) {
   Jet<Rgb> jet = irradiance(gather);
-  jet.translational = translational_gradient(gather);
+  jet.translational = translational_gradient(gather, distance);
   jet.rotational = rotational_gradient(gather, weights);
   return jet;
 }

@@ -15,8 +15,14 @@ enum class RotationWeights { classical, exact };
 /// The rotational gradient alone, which needs no distances.
 Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeights weights);
 
+/// How far the wall between two strata is: `minimum` is the nearer of its two samples, as published; `harmonic` is
+/// their harmonic mean where both lie on one surface, which is where the surface is at the wall, and the nearer across
+/// a step.
+enum class WallDistance { minimum, harmonic };
+
 /// Irradiance with the rotational and translational gradients of the stratified hemisphere [Ward, Heckbert 1992]:
-/// radiance steps over the walls between strata, each wall at the nearer of its two distances.
-Jet<Rgb> ward_heckbert_1992(const HemisphereGather& gather, RotationWeights weights);
+/// radiance steps over the walls between strata.
+Jet<Rgb> ward_heckbert_1992(const HemisphereGather& gather, RotationWeights weights,
+                            WallDistance distance = WallDistance::minimum);
 
 }  // namespace isophote

@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "isophote/integrate/adaptive_rays.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/render.h"
 
@@ -200,7 +201,11 @@ std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint6
 Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
                    RayCounts& counts) {
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), place.key);
-  gather_hemisphere(job.world, job.method.secondary ? &cache : nullptr, place, job.strata, key, scratch, counts);
+  const RecordCache* secondary = job.method.secondary ? &cache : nullptr;
+  const Strata strata = job.method.adaptive
+                            ? strata_for(job, secondary, place, job.method.noise(), most_rays, scratch, counts)
+                            : job.strata;
+  gather_hemisphere(job.world, secondary, place, strata, key, scratch, counts);
   return job.method.make_record(scratch, {place.pixel, place.pixel * static_cast<float>(job.height),
                                           job.world.rays.scene_scale(), place.normal, job.pilot});
 }

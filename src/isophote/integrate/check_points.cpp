@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "isophote/integrate/adaptive_rays.h"
 #include "isophote/integrate/build.h"
 #include "isophote/integrate/gather.h"
 #include "isophote/integrate/shade.h"
@@ -10,7 +11,7 @@
 namespace isophote {
 namespace {
 
-constexpr int rays_per_point = 3200;
+constexpr int rays_per_point = 3200;       // where records do not adapt theirs
 constexpr int fewest = 40, most = 1024;    // of fewer, the 95th percentile would be the largest
 constexpr std::size_t between_stops = 64;  // points, after which the host is asked whether to go on
 
@@ -19,10 +20,16 @@ struct CheckPoint {
   double cached = 0, reference = 0, noise = 0;
 };
 
-/// Irradiance (luminance) at a place by a path-traced gather of half the rays of a point.
-double half_reference(const Job& job, const Place& place, std::uint64_t key, RayCounts& counts) {
-  HemisphereGather gather;
-  gather_hemisphere(job.world, nullptr, place, Strata::about(rays_per_point / 2), key, gather, counts);
+/// Rays for a reference whose own error is half of what a record may have.
+int reference_rays(const Job& job, const Place& place, HemisphereGather& scratch, RayCounts& counts) {
+  if (!job.method.adaptive) return rays_per_point;
+  return strata_for(job, nullptr, place, job.method.noise() / 2, 4 * most_rays, scratch, counts).size();
+}
+
+/// Irradiance (luminance) at a place by a path-traced gather.
+double reference(const Job& job, const Place& place, int rays, std::uint64_t key, HemisphereGather& gather,
+                 RayCounts& counts) {
+  gather_hemisphere(job.world, nullptr, place, Strata::about(rays), key, gather, counts);
   Rgbd sum;
   for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
   return luminance(sum) * std::numbers::pi / gather.strata.size();
@@ -37,11 +44,13 @@ CheckPoint check_point(const Job& job, const RecordCache& cache, std::size_t ind
   RayCounts rays;
   const FirstPoint seen = first_point(job.world, ray, true, stream, rays.camera);
   CheckPoint result;
-  if (const std::optional<Place> place = place_of(job, seen)) {
+  if (const std::optional<Place> place = place_of(job, seen, hash(key, index))) {
     // Without the normal map: the gather's hemisphere is about the interpolated normal.
     if (const auto cached = cache.interpolate({place->position, place->normal, place->normal})) {
-      const double a = half_reference(job, *place, hash(key, index, 0), rays);
-      const double b = half_reference(job, *place, hash(key, index, 1), rays);
+      HemisphereGather scratch;
+      const int half = reference_rays(job, *place, scratch, rays) / 2;
+      const double a = reference(job, *place, half, hash(key, index, 0), scratch, rays);
+      const double b = reference(job, *place, half, hash(key, index, 1), scratch, rays);
       // Half the difference of two is as wide as their mean's error, whatever strata and paths have in common.
       result = {true, luminance(Rgbd(*cached)), (a + b) / 2, std::abs(a - b) / 2};
     }

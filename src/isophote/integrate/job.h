@@ -32,7 +32,7 @@ struct Job {
   int samples = 16;  ///< a pixel
   std::uint64_t seed = 0;
   Method method{};
-  Strata strata = Strata::about(800);  ///< of each record's gather
+  Strata strata = Strata::about(800);  ///< of each record's gather, unless the method adapts them
   Pilot pilot{};                       ///< what metrics want to know of the whole picture: `run_pilot`
   ParallelFor parallel{};
   Progress progress{};

@@ -9,7 +9,7 @@ namespace isophote {
 Pilot run_pilot(const Job& job, RayCounts& counts) {
   constexpr std::size_t points = 256;
   constexpr int rays = 200;
-  if (!job.method.caches() || job.method.metric->needs < 2) return {};
+  if (!job.method.caches() || (job.method.metric->needs < 2 && !job.method.adaptive)) return {};
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::pilot), job.seed);
   std::vector<std::optional<Record>> seen(points);
   counts += for_each(job.parallel, points, 1, [&](std::size_t i, RayCounts& each) {

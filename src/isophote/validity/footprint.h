@@ -3,18 +3,21 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include "isophote/core/sym3.h"
 
 namespace isophote {
 
 /// How much a record counts as the error t at the query grows from 0 to 1. `ward` is 1/t - 1 [Ward, Rubinstein, Clear
-/// 1988, shifted to reach 0 at the rim, so that nothing pops]; `tent` is 1 - t.
-enum class Falloff : std::uint8_t { ward, tent };
+/// 1988, shifted to reach 0 at the rim, so that nothing pops]; `tent` is 1 - t; `tabellion` is a tent over the larger
+/// of the two parts of t, of which that of the normals reaches 1 at ten degrees [Tabellion, Lamorlette 2004].
+enum class Falloff : std::uint8_t { ward, tent, tabellion };
 
 /// Where a record may be used. A record at x_i with normal n_i serves a query (x, n) whose error
 ///   t = sqrt(q . shape q) + normal_scale * |n - n_i| / sqrt(2),   q = x - x_i
-/// is under 1. Lookup reads nothing else, so it needs to know no method.
+/// (or the larger of the two, if the falloff says so) is under 1. Lookup reads nothing else, so it needs to know no
+/// method.
 struct Footprint {
   Sym3 shape;
   float normal_scale = 0;
@@ -32,6 +35,12 @@ struct Footprint {
     f.normal_scale = normal_scale;
     f.radius = radius;
     return f;
+  }
+
+  /// Another falloff than the metric's, with what belongs to it.
+  void set_falloff(Falloff wanted) {
+    falloff = wanted;
+    if (falloff == Falloff::tabellion) normal_scale = 1 / std::sqrt(1 - std::cos(std::numbers::pi_v<float> / 18));
   }
 
   /// Makes the region of a disk thinner along the unit vector n, where it then ends at `height` <= radius.

@@ -1,0 +1,31 @@
+#include "isophote/derivatives/standard_error.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace isophote {
+
+double standard_error(const HemisphereGather& gather) {
+  const Strata& s = gather.strata;
+  std::vector<double> seen;
+  seen.reserve(gather.samples.size());
+  for (const GatherSample& sample : gather.samples) seen.push_back(luminance(Rgbd(sample.radiance)));
+  const auto n = static_cast<std::size_t>(s.azimuthal);
+  const auto half_square = [](double difference) { return difference * difference / 2; };
+  double variance = 0;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(s.polar); ++j)
+    for (std::size_t k = 0; k < n; ++k) {
+      const double here = seen[j * n + k];
+      double sum = half_square(seen[j * n + (k + 1) % n] - here) + half_square(seen[j * n + (k + n - 1) % n] - here);
+      int neighbours = 2;
+      if (s.polar > 1) {
+        const std::size_t ring = j + 1 < static_cast<std::size_t>(s.polar) ? j + 1 : j - 1;
+        sum += half_square(seen[ring * n + k] - here), ++neighbours;
+      }
+      variance += sum / neighbours;
+    }
+  return std::numbers::pi / s.size() * std::sqrt(variance);
+}
+
+}  // namespace isophote

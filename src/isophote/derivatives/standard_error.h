@@ -1,0 +1,12 @@
+#pragma once
+
+#include "isophote/derivatives/gather.h"
+
+namespace isophote {
+
+/// The standard error of the irradiance that is the mean over a gather's strata, in luminance, W/m2: from what
+/// neighbouring strata differ by. Within a stratum radiance varies no more than that where the strata are fine, so that
+/// it errs upwards, and is 0 in a furnace.
+double standard_error(const HemisphereGather& gather);
+
+}  // namespace isophote
