@@ -110,6 +110,7 @@ class Rendering {
     RecordCache cache = starting_cache();
     if (settings_.lazy) {
       const LazyReport report = render_lazily(*job_, cache, film);
+      job_->pilot = report.pilot;
       statistics_.time.build = report.build;
       statistics_.rays += report.build_rays;
       build_rays_ = report.build_rays.total();
@@ -144,6 +145,7 @@ class Rendering {
     } else {
       report = build_in_rounds(*job_, cache);
     }
+    job_->pilot = report.pilot;
     statistics_.rounds = report.rounds;
     statistics_.passes = report.passes;
     statistics_.rays += report.rays;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "isophote/core/rgb.h"
 #include "isophote/core/sym3.h"
 #include "isophote/core/vec.h"
@@ -30,7 +32,8 @@ struct Jet {
   Gradient<V> translational;  ///< the position moves, the normal stays
   Gradient<V> rotational;     ///< the normal turns, the position stays
   Sym3 hessian;               ///< of luminance, per square metre, in the tangent plane; zero where none is estimated
-  float standard_error = 0;   ///< of the value's luminance, from what made it
+  float standard_error = 0;   ///< of the value's luminance, judged by the samples that made it
+  std::uint32_t rays = 0;     ///< how many those were
   DistanceStats distances;
 };
 

@@ -96,6 +96,7 @@ Jet<Rgb> irradiance(const HemisphereGather& gather) {
   Jet<Rgb> jet;
   jet.value = Rgb(sum * (half_turn / n));
   jet.standard_error = static_cast<float>(standard_error(gather));
+  jet.rays = static_cast<std::uint32_t>(gather.samples.size());
   jet.distances.harmonic_mean = static_cast<float>(n / inverse_distances);
   return jet;
 }

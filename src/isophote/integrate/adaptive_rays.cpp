@@ -1,21 +1,28 @@
 #include "isophote/integrate/adaptive_rays.h"
 
 #include <algorithm>
-
-#include "isophote/derivatives/standard_error.h"
-#include "isophote/derivatives/ward_heckbert_1992.h"
+#include <cmath>
 
 namespace isophote {
 
-Strata strata_for(const Job& job, const RecordCache* cache, const Place& place, float noise, int most,
-                  HemisphereGather& scratch, RayCounts& counts) {
-  constexpr int ahead = 200;  // no fewer are worth a record: derivatives need them
-  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::pilot), place.key);
-  gather_hemisphere(job.world, cache, place, Strata::about(ahead), key, scratch, counts);
-  const Jet<Rgb> jet = irradiance(scratch);
-  const float value = 0.99f * luminance(jet.value) + 0.01f * job.pilot.irradiance;
-  const float times = value > 0 ? jet.standard_error / (noise * value) : 0;
-  return Strata::about(static_cast<int>(std::clamp(ahead * times * times, float{ahead}, static_cast<float>(most))));
+Strata strata_for(float spread, const Pilot& pilot, float noise) {
+  const float rays = std::pow(pilot.noise_rate / noise, 2.0f) * std::cbrt(spread * spread);
+  return Strata::about(static_cast<int>(std::clamp(rays, float{fewest_rays}, float{most_rays})));
+}
+
+float relative_spread(const Jet<Rgb>& jet, const Pilot& pilot) {
+  const float value = 0.99f * luminance(jet.value) + 0.01f * pilot.irradiance;
+  return value > 0 ? jet.standard_error * std::sqrt(static_cast<float>(jet.rays)) / value : 0;
+}
+
+Strata strata_near(const Job& job, const RecordCache& cache, const Place& place) {
+  float nearest = infinity, spread = std::pow(job.pilot.noise_rate, 1.5f);
+  cache.visit_near(place.position, [&](const Record& record) {
+    if (dot(record.normal, place.normal) <= 0) return;
+    const float distance = length_squared(place.position - record.position);
+    if (distance < nearest) nearest = distance, spread = relative_spread(record.jet, job.pilot);
+  });
+  return strata_for(spread, job.pilot, job.method.noise());
 }
 
 }  // namespace isophote

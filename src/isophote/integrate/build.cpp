@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-#include "isophote/integrate/adaptive_rays.h"
+#include "isophote/integrate/make_record.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/render.h"
 
@@ -40,7 +40,7 @@ struct Candidate {
 
 class Builder {
  public:
-  Builder(const Job& job, RecordCache& cache) : job_(job), cache_(cache) { job_.pilot = run_pilot(job, report_.rays); }
+  Builder(const Job& job, RecordCache& cache) : job_(job), cache_(cache) {}
 
   BuildReport run() {
     job_.progress.tell("build", 0);
@@ -48,19 +48,23 @@ class Builder {
     while (stride * 16 <= std::min(job_.width, job_.height) && stride < 64) stride *= 2;
     for (; stride > 1 && !report_.cancelled; stride /= 2) {
       begin_level(1 + std::countr_zero(static_cast<unsigned>(stride)));
-      cover(uncovered(stride, 0));
+      std::vector<Candidate> candidates = uncovered(stride, 0);
+      if (!surveyed_) begin_with_survey(candidates);
+      cover(std::move(candidates));
       if (job_.progress.preview) job_.progress.preview(coarse_picture(job_, cache_, stride));
     }
     const double pixels = static_cast<double>(job_.width) * job_.height;
     for (int pass = 0; pass < most_passes && !report_.cancelled; ++pass) {
       begin_level(2);
       std::vector<Candidate> left = uncovered(1, pass % job_.samples);
+      if (!surveyed_) begin_with_survey(left);
       ++report_.passes;
       const bool enough = static_cast<double>(left.size()) < good_coverage * pixels;
       cover(std::move(left));
       if (enough) break;
     }
     cache_.reindex();
+    report_.pilot = job_.pilot;
     job_.progress.tell("build", 1);
     return report_;
   }
@@ -116,6 +120,34 @@ class Builder {
     for (const auto& row : found) all.insert(all.end(), row.begin(), row.end());
     std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.place.key < b.place.key; });
     return all;
+  }
+
+  /// Surveys the picture, where the method wants that, at the first candidates, whose jets then make the first records;
+  /// where there are records already, candidates are no fair choice.
+  void begin_with_survey(std::vector<Candidate>& candidates) {
+    surveyed_ = true;
+    if (!wants_survey(job_.method) || job_.pilot.irradiance > 0) return;
+    if (!cache_.records().empty()) {
+      job_.pilot = survey(job_, random_places(job_, report_.rays), report_.rays).pilot;
+      return;
+    }
+    std::vector<Place> places;
+    for (const Candidate& c : candidates)
+      if (places.size() < surveyed_places) places.push_back(c.place);
+    const Survey first = survey(job_, places, report_.rays);
+    job_.pilot = first.pilot;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Place& place = places[i];
+      if (cache_.covers({place.position, place.normal, place.normal})) continue;
+      const auto id =
+          cache_.insert(job_.method.make_record(place.position, place.normal, first.jets[i], view_of(job_, place)));
+      job_.method.settle(cache_.settling(), {&id, 1});
+    }
+    std::erase_if(candidates, [&](Candidate& c) {
+      bool covered = false;
+      for (const Record& record : cache_.records()) covered |= c.meet(record);
+      return covered;
+    });
   }
 
   /// Rounds, until records cover all candidates.
@@ -185,30 +217,11 @@ class Builder {
   BuildReport report_;
   Job job_;
   RecordCache& cache_;
+  bool surveyed_ = false;
   double done_ = 0, share_ = 0;  // of the build: before the present level, and of it
 };
 
 }  // namespace
-
-std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint64_t key) {
-  if (!seen.point || !seen.point->bsdf.has_diffuse() || seen.depth + 1 >= job.world.max_depth) return std::nullopt;
-  if (seen.depth > 0 && job.world.max_depth < std::numeric_limits<int>::max()) return std::nullopt;  // see shade()
-  const SurfacePoint& p = *seen.point;
-  const float pixel = job.pixel_footprint(seen.path_length);
-  return Place{p.position, p.geometric_normal, p.shading_normal, pixel, p.offset, p.medium, key};
-}
-
-Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
-                   RayCounts& counts) {
-  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), place.key);
-  const RecordCache* secondary = job.method.secondary ? &cache : nullptr;
-  const Strata strata = job.method.adaptive
-                            ? strata_for(job, secondary, place, job.method.noise(), most_rays, scratch, counts)
-                            : job.strata;
-  gather_hemisphere(job.world, secondary, place, strata, key, scratch, counts);
-  return job.method.make_record(scratch, {place.pixel, place.pixel * static_cast<float>(job.height),
-                                          job.world.rays.scene_scale(), place.normal, job.pilot});
-}
 
 RecordCache empty_cache(const Job& job) { return RecordCache(job.world.scene.bounds()); }
 

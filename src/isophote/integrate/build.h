@@ -1,6 +1,6 @@
 #pragma once
 
-#include "isophote/integrate/gather.h"
+#include "isophote/cache/record_cache.h"
 #include "isophote/integrate/job.h"
 
 namespace isophote {
@@ -10,6 +10,7 @@ struct BuildReport {
   std::size_t rounds = 0;
   int passes = 0;  ///< over all pixels, each through another sample of them
   RayCounts rays;
+  Pilot pilot{};  ///< of the survey, where the method wanted one
   bool cancelled = false;
 };
 
@@ -19,14 +20,6 @@ struct BuildReport {
 /// until next to none is uncovered. The result does not depend on the number of threads. Records that are there already
 /// are kept.
 BuildReport build_in_rounds(const Job& job, RecordCache& cache);
-
-/// The record at a place. Its random numbers depend on the place's key alone, not on the records before it.
-Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
-                   RayCounts& counts);
-
-/// The place a camera sample asks to be covered, with the sample's key where something is to be computed; none
-/// where it meets nothing that scatters diffusely.
-std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint64_t key = 0);
 
 /// An empty cache over the job's scene.
 RecordCache empty_cache(const Job& job);

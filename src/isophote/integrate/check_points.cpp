@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "isophote/integrate/adaptive_rays.h"
-#include "isophote/integrate/build.h"
 #include "isophote/integrate/gather.h"
+#include "isophote/integrate/make_record.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {
@@ -20,10 +20,9 @@ struct CheckPoint {
   double cached = 0, reference = 0, noise = 0;
 };
 
-/// Rays for a reference whose own error is half of what a record may have.
-int reference_rays(const Job& job, const Place& place, HemisphereGather& scratch, RayCounts& counts) {
-  if (!job.method.adaptive) return rays_per_point;
-  return strata_for(job, nullptr, place, job.method.noise() / 2, 4 * most_rays, scratch, counts).size();
+/// Rays for a reference whose own error is half of what a record here would have.
+int reference_rays(const Job& job, const RecordCache& cache, const Place& place) {
+  return job.method.adaptive ? 4 * strata_near(job, cache, place).size() : rays_per_point;
 }
 
 /// Irradiance (luminance) at a place by a path-traced gather.
@@ -48,7 +47,7 @@ CheckPoint check_point(const Job& job, const RecordCache& cache, std::size_t ind
     // Without the normal map: the gather's hemisphere is about the interpolated normal.
     if (const auto cached = cache.interpolate({place->position, place->normal, place->normal})) {
       HemisphereGather scratch;
-      const int half = reference_rays(job, *place, scratch, rays) / 2;
+      const int half = reference_rays(job, cache, *place) / 2;
       const double a = reference(job, *place, half, hash(key, index, 0), scratch, rays);
       const double b = reference(job, *place, half, hash(key, index, 1), scratch, rays);
       // Half the difference of two is as wide as their mean's error, whatever strata and paths have in common.

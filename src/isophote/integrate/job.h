@@ -23,6 +23,8 @@ struct Progress {
   bool stop() const { return cancelled && cancelled(); }
 };
 
+class JetMemo;
+
 /// One picture to compute: what it shows, by which method, and on whose threads. Results depend on everything but
 /// `parallel`.
 struct Job {
@@ -33,7 +35,8 @@ struct Job {
   std::uint64_t seed = 0;
   Method method{};
   Strata strata = Strata::about(800);  ///< of each record's gather, unless the method adapts them
-  Pilot pilot{};                       ///< what metrics want to know of the whole picture: `run_pilot`
+  Pilot pilot{};                       ///< of a survey; empty: made before the first record, where one is wanted
+  JetMemo* memo = nullptr;             ///< where builds share what their places see; not with secondary caching
   ParallelFor parallel{};
   Progress progress{};
 

@@ -1,39 +1,73 @@
 #include "isophote/integrate/pilot.h"
 
-#include "isophote/integrate/build.h"
-#include "isophote/integrate/gather.h"
+#include <cmath>
+
+#include "isophote/integrate/adaptive_rays.h"
+#include "isophote/integrate/make_record.h"
 #include "isophote/validity/total_error.h"
 
 namespace isophote {
+namespace {
 
-Pilot run_pilot(const Job& job, RayCounts& counts) {
-  constexpr std::size_t points = 256;
-  constexpr int rays = 200;
-  if (!job.method.caches() || (job.method.metric->needs < 2 && !job.method.adaptive)) return {};
+/// The job's estimator at all places, at each by strata(i).
+template <class StrataOf>
+std::vector<Jet<Rgb>> jets_at(const Job& job, std::span<const Place> places, StrataOf&& strata, RayCounts& counts) {
+  std::vector<Jet<Rgb>> jets(places.size());
+  counts += for_each(job.parallel, places.size(), 1, [&](std::size_t i, RayCounts& each) {
+    thread_local HemisphereGather scratch;
+    jets[i] = jet_at(job, nullptr, places[i], strata(i), scratch, each);
+  });
+  return jets;
+}
+
+float mean_irradiance(std::span<const Jet<Rgb>> jets) {
+  double sum = 0;
+  for (const Jet<Rgb>& jet : jets) sum += luminance(jet.value);
+  return static_cast<float>(sum / static_cast<double>(jets.size()));
+}
+
+}  // namespace
+
+bool wants_survey(const Method& method) { return method.caches() && (method.metric->needs > 1 || method.adaptive); }
+
+Survey survey(const Job& job, std::span<const Place> places, RayCounts& counts) {
+  Survey result;
+  if (places.empty()) return result;
+  Pilot& pilot = result.pilot;
+  std::vector<Strata> strata(places.size(), job.strata);
+  if (job.method.adaptive) {
+    std::vector<Place> ahead(places.begin(), places.end());
+    for (Place& place : ahead) place.key = hash(static_cast<std::uint64_t>(Purpose::pilot), place.key);
+    const auto coarse = jets_at(
+        job, ahead, [](std::size_t) { return Strata::about(fewest_rays); }, counts);
+    pilot.irradiance = mean_irradiance(coarse);
+    double rate = 0;
+    for (const Jet<Rgb>& jet : coarse) rate += std::cbrt(std::pow(relative_spread(jet, pilot), 2));
+    pilot.noise_rate = static_cast<float>(rate / static_cast<double>(places.size()));
+    for (std::size_t i = 0; i < places.size(); ++i)
+      strata[i] = strata_for(relative_spread(coarse[i], pilot), pilot, job.method.noise());
+  }
+  result.jets = jets_at(
+      job, places, [&](std::size_t i) { return strata[i]; }, counts);
+  pilot.irradiance = mean_irradiance(result.jets);
+  double rate = 0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    rate += error_rate(result.jets[i], places[i].normal, pilot.irradiance);
+  pilot.error_rate = static_cast<float>(rate / static_cast<double>(places.size()));
+  return result;
+}
+
+std::vector<Place> random_places(const Job& job, RayCounts& counts) {
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::pilot), job.seed);
-  std::vector<std::optional<Record>> seen(points);
-  counts += for_each(job.parallel, points, 1, [&](std::size_t i, RayCounts& each) {
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < surveyed_places; ++i) {
     Sampler stream(key, static_cast<std::uint32_t>(i));
     const Vec2 at = stream.next2();
     const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
-    const std::optional<Place> place = place_of(job, first_point(job.world, ray, true, stream, each.camera));
-    if (!place) return;
-    HemisphereGather gather;
-    gather_hemisphere(job.world, nullptr, *place, Strata::about(rays), hash(key, i), gather, each);
-    Record& record = seen[i].emplace();
-    record.normal = place->normal;
-    record.jet = job.method.estimator->estimate(gather);
-  });
-  double irradiance = 0, rate = 0, count = 0;
-  for (const auto& record : seen)
-    if (record) irradiance += luminance(record->jet.value), ++count;
-  if (count == 0) return {};
-  Pilot pilot;
-  pilot.irradiance = static_cast<float>(irradiance / count);
-  for (const auto& record : seen)
-    if (record) rate += error_rate(record->jet, record->normal, pilot.irradiance);
-  pilot.error_rate = static_cast<float>(rate / count);
-  return pilot;
+    if (const auto place = place_of(job, first_point(job.world, ray, true, stream, counts.camera), hash(key, i)))
+      places.push_back(*place);
+  }
+  return places;
 }
 
 }  // namespace isophote

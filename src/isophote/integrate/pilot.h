@@ -1,11 +1,27 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
+#include "isophote/integrate/gather.h"
 #include "isophote/integrate/job.h"
 
 namespace isophote {
 
-/// What the job's metric wants to know of the whole picture before the first record: means over random visible points,
-/// each with a gather of few rays, which radii need no more of. Nothing is done for metrics that do not ask.
-Pilot run_pilot(const Job& job, RayCounts& counts);
+/// What a few places, well spread over the picture, say of all, before the first record: what metrics that aim at a
+/// mean error, and rays that adapt, want to know. `jets` are of the places, in their order, by gathers like those of
+/// records.
+struct Survey {
+  Pilot pilot;
+  std::vector<Jet<Rgb>> jets;
+};
+Survey survey(const Job& job, std::span<const Place> places, RayCounts& counts);
+
+/// Does the job's method want a survey, and of how many places?
+bool wants_survey(const Method& method);
+inline constexpr std::size_t surveyed_places = 64;
+
+/// Random visible places for a survey where no others are at hand.
+std::vector<Place> random_places(const Job& job, RayCounts& counts);
 
 }  // namespace isophote

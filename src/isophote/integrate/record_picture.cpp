@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "isophote/image/false_colour.h"
-#include "isophote/integrate/build.h"
+#include "isophote/integrate/make_record.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {

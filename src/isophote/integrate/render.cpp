@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "isophote/integrate/build.h"
+#include "isophote/integrate/make_record.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/shade.h"
 
@@ -138,7 +138,8 @@ RgbImage coarse_picture(const Job& job, const RecordCache& cache, int stride) {
 LazyReport render_lazily(const Job& asked, RecordCache& cache, Film& film) {
   LazyReport report;
   Job job = asked;
-  job.pilot = run_pilot(job, report.build_rays);
+  if (wants_survey(job.method))
+    report.pilot = job.pilot = survey(job, random_places(job, report.build_rays), report.build_rays).pilot;
   HemisphereGather scratch;
   const FlushDenormals flush;
   for (int y = 0; y < job.height; ++y) {

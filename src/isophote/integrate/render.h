@@ -30,6 +30,7 @@ RgbImage coarse_picture(const Job& job, const RecordCache& cache, int stride);
 struct LazyReport {
   RenderReport final;
   RayCounts build_rays;
+  Pilot pilot{};
   Clock build;
 };
 LazyReport render_lazily(const Job& job, RecordCache& cache, Film& film);

@@ -65,6 +65,7 @@ inline constexpr float smallest_radius = 1e-5f;
 struct Pilot {
   float error_rate = 0;  ///< error for unit threshold, 1/length: see total_error.h
   float irradiance = 0;  ///< luminance
+  float noise_rate = 0;  ///< of rays that adapt: see adaptive_rays.h
 };
 
 /// How a record is seen when its footprint is decided.

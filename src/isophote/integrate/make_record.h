@@ -1,0 +1,24 @@
+#pragma once
+
+#include "isophote/integrate/gather.h"
+#include "isophote/integrate/job.h"
+
+namespace isophote {
+
+/// The place a camera sample asks to be covered, with the sample's key where something is to be computed; none where it
+/// meets nothing that scatters diffusely.
+std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint64_t key = 0);
+
+/// How the job sees a record at a place.
+View view_of(const Job& job, const Place& place);
+
+/// What the job's estimator says of a place, by a gather that reads `cache` where that is not null. Its random numbers
+/// depend on the place's key alone, not on the records before it.
+Jet<Rgb> jet_at(const Job& job, const RecordCache* cache, const Place& place, Strata strata, HemisphereGather& scratch,
+                RayCounts& counts);
+
+/// The record at a place.
+Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
+                   RayCounts& counts);
+
+}  // namespace isophote
