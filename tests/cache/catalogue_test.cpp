@@ -112,7 +112,7 @@ TEST(Catalogue, MakesAndSettlesRecordsAsItsPartsSay) {
   }
   // the bound on pixels is what sets these two apart here
   EXPECT_FLOAT_EQ(find_method("bounded").make_record(gather, view).footprint.radius, 0.02f);
-  EXPECT_GT(find_method("cached").make_record(gather, view).footprint.radius, 0.1f);
+  EXPECT_GT(find_method("ward1992").make_record(gather, view).footprint.radius, 0.1f);
 }
 
 }  // namespace

@@ -49,7 +49,11 @@ TEST(CheckPoints, InAFurnaceMeasureNoMoreThanNoise) {
   job.strata = Strata::about(3000);
   RecordCache cache = render_all(job).cache;
   // The truth, in place of what the records hold.
-  for (Record& record : cache.settling().records) record.jet = {Rgb(pi), {}, {}, {}, record.jet.distances};
+  for (Record& record : cache.settling().records) {
+    Jet<Rgb> truth;
+    truth.value = Rgb(pi);
+    record.jet = truth;
+  }
   const MeasuredError error = check_points(job, cache, 4000000);
   EXPECT_GT(error.noise, 0);
   EXPECT_LT(error.noise, 0.02);

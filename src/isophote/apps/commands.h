@@ -16,6 +16,7 @@ struct RenderRequest {
   std::string progress;  ///< bar, json, none; empty: bar on a terminal
   int threads = 0;       ///< 0: all
   bool check = true;
+  int refine = 0;                                             ///< times at most
   std::vector<std::pair<std::string, std::string>> settings;  ///< flags of settings.h's table, in their order
 };
 

@@ -39,6 +39,10 @@ void add_render(CLI::App& program, app::RenderRequest& request) {
       ->type_name("FILE");
   verb->add_option("--save-cache", request.save_cache, "write the records")->type_name("FILE");
   verb->add_option("--load-cache", request.load_cache, "start with these records")->type_name("FILE");
+  verb->add_option("--refine", request.refine,
+                   "where the measured error exceeds the asked one, add records and rays, so many times at most")
+      ->type_name("N")
+      ->check(CLI::Range(0, 16).description(""));
   verb->add_flag_callback(
       "--no-check", [&request] { request.check = false; }, "do not measure the error");
 }

@@ -10,6 +10,7 @@
 #include "isophote/core/error.h"
 #include "isophote/image/png.h"
 #include "isophote/integrate/record_picture.h"
+#include "isophote/integrate/refine.h"
 #include "isophote/integrate/render.h"
 #include "isophote/integrate/scene_hash.h"
 #include "isophote/integrate/solve_records.h"
@@ -32,12 +33,13 @@ void check_size(int width, int height) {
 std::string record_settings(const Job& job) {
   const RadiusBounds& b = job.method.settings.bounds;
   return fmt::format(
-      "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmin-radius={}\nmax-radius={}\n"
+      "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmax-view={}\nmin-radius={}\nmax-"
+      "radius={}\n"
       "bound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}\nsecondary={}\n"
       "max-depth={}\n",
       job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels,
-      b.min_view, b.min_length, b.max_length, b.gradient, b.neighbours, job.method.settings.aspect, job.method.order,
-      job.method.settings.falloff ? static_cast<int>(*job.method.settings.falloff) : -1,
+      b.min_view, b.max_view, b.min_length, b.max_length, b.gradient, b.neighbours, job.method.settings.aspect,
+      job.method.order, job.method.settings.falloff ? static_cast<int>(*job.method.settings.falloff) : -1,
       job.method.adaptive ? "auto" : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal), job.method.secondary,
       job.world.max_depth);
 }
@@ -119,12 +121,13 @@ class Rendering {
     } else {
       build(cache);
       statistics_.time.build = Clock::now() - begin;
+      refine(cache);
       final_pass(&cache, film);
     }
     statistics_.records = cache.records().size();
     if (!request_.save_cache.empty()) save(cache);
     if (!request_.records_picture.empty()) write_png(request_.records_picture, record_picture(*job_, cache), 0);
-    if (request_.check && !statistics_.cancelled) check(cache);
+    if (request_.check && !measured_ && !statistics_.cancelled) check(cache);
   }
 
   RecordCache starting_cache() {
@@ -137,29 +140,49 @@ class Rendering {
   }
 
   void build(RecordCache& cache) {
-    BuildReport report;
     if (settings_.records) {
       Solved solved = build_with_records(*job_, static_cast<std::size_t>(*settings_.records));
       cache = std::move(solved.cache);
-      report = solved.report;
+      added(std::move(solved.report));
     } else {
-      report = build_in_rounds(*job_, cache);
+      added(build_in_rounds(*job_, cache));
     }
+  }
+
+  /// Works on the cache until it is measured to be as good as was asked, or as often as was allowed.
+  void refine(RecordCache& cache) {
+    int& turn = statistics_.refinements;
+    for (; turn < request_.refine && !statistics_.cancelled; ++turn) {
+      check(cache);
+      const MeasuredError& error = statistics_.error;
+      if (statistics_.cancelled || error.points == 0 || error.mean <= settings_.error.value_or(default_error)) return;
+      const Clock begin = Clock::now();
+      job_->method.settings.a = refined_threshold(job_->method, error.mean);
+      added(isophote::refine(*job_, cache, places_));
+      statistics_.time.build += Clock::now() - begin;
+    }
+  }
+
+  /// Takes account of records that were added to the cache.
+  void added(BuildReport report) {
+    measured_ = false;
     job_->pilot = report.pilot;
-    statistics_.rounds = report.rounds;
-    statistics_.passes = report.passes;
+    places_ = std::move(report.places);
+    statistics_.rounds += report.rounds;
+    statistics_.passes += report.passes;
     statistics_.rays += report.rays;
-    build_rays_ = report.rays.total();
-    statistics_.cancelled = report.cancelled;
+    build_rays_ += report.rays.total();
+    statistics_.cancelled = statistics_.cancelled || report.cancelled;
   }
 
   void check(const RecordCache& cache) {
     display_.show("check", 0);
     const Clock begin = Clock::now();
-    statistics_.error = check_points(*job_, cache, build_rays_ / 5);
+    measured_ = true;
+    statistics_.error = check_points(*job_, cache, build_rays_ / 5, statistics_.refinements);
     statistics_.cancelled = Interruptible::interrupted();
     statistics_.rays += statistics_.error.rays;
-    statistics_.time.check = Clock::now() - begin;
+    statistics_.time.check += Clock::now() - begin;
   }
 
   void final_pass(const RecordCache* cache, Film& film) {
@@ -234,6 +257,8 @@ class Rendering {
   std::optional<Job> job_;
   Statistics statistics_;
   std::uint64_t build_rays_ = 0;
+  bool measured_ = false;      // the cache as it is now
+  std::vector<Place> places_;  // of the records that this run made
 };
 
 }  // namespace

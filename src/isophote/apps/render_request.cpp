@@ -103,6 +103,13 @@ void check_against_method(const RenderRequest& request, const RenderSettings& se
   if (!method.caches() &&
       !(request.save_cache.empty() && request.load_cache.empty() && request.records_picture.empty()))
     throw UsageError("method 'path' caches nothing: it takes no --save-cache, --load-cache or --show-records");
+  if (request.refine > 0) {
+    if (!request.check) throw UsageError("--refine goes by the measured error: it takes no --no-check");
+    if (settings.a || settings.records || settings.lazy || !method.caches())
+      throw UsageError(
+          "--refine works towards an --error, with caches built in rounds: it takes no --a, --records, "
+          "--order lazy or method 'path'");
+  }
   if (settings.records && (settings.lazy || !request.load_cache.empty()))
     throw UsageError("--records builds caches in rounds and from nothing: it takes no --order lazy or --load-cache");
 }

@@ -97,6 +97,8 @@ constexpr Option table[] = {
      [](S& s, T t) { s.max_pixels = number<float>(t, 0, 1e6); }, true},
     {"method", "min-view", "H", "lower bound of radii, in heights of the picture, times the threshold a",
      [](S& s, T t) { s.min_view = number<float>(t, 0, 1e6); }, true},
+    {"method", "max-view", "H", "upper bound of radii, in heights of the picture",
+     [](S& s, T t) { s.max_view = number<float>(t, 0, 1e6); }, true},
     {"method", "min-radius", "R", "lower bound of radii, in scene units",
      [](S& s, T t) { s.min_radius = number<float>(t, 0, 1e30); }, true},
     {"method", "max-radius", "R", "upper bound of radii, in scene units",
@@ -164,6 +166,7 @@ Method chosen_method(const RenderSettings& s) {
   bounds.min_pixels = s.min_pixels.value_or(bounds.min_pixels);
   bounds.max_pixels = s.max_pixels.value_or(bounds.max_pixels);
   bounds.min_view = s.min_view.value_or(bounds.min_view);
+  bounds.max_view = s.max_view.value_or(bounds.max_view);
   bounds.min_length = s.min_radius.value_or(bounds.min_length);
   bounds.max_length = s.max_radius.value_or(bounds.max_length);
   bounds.gradient = s.bound_gradient.value_or(bounds.gradient);
@@ -190,6 +193,8 @@ std::string describe(const RadiusBounds& b) {
   if (b.min_pixels > 0) add(fmt::format("at least {:g} px", b.min_pixels));
   if (b.max_pixels < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} px", b.max_pixels));
   if (b.min_view > 0) add(fmt::format("at least {:g} a of the picture's height", b.min_view));
+  if (b.max_view < std::numeric_limits<float>::infinity())
+    add(fmt::format("at most {:g} of the picture's height", b.max_view));
   if (b.min_length > 0) add(fmt::format("at least {:g} scene units", b.min_length));
   if (b.max_length < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} scene units", b.max_length));
   if (b.gradient) add("gradient");

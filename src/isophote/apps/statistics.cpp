@@ -37,13 +37,15 @@ void Statistics::print() const {
   fmt::print("  memory     {:.0f} MB at the peak\n", static_cast<double>(peak_memory()) / 1e6);
   if (error.points > 0)
     fmt::print(
-        "  error      {}measured {:.3g} at {} random visible points (median {:.3g}, 95th percentile {:.3g}, "
+        "  error      {}{}measured {:.3g} at {} random visible points (median {:.3g}, 95th percentile {:.3g}, "
         "bias {:+.3g}; the measurement's own noise is {:.2g})\n",
-        error_asked ? fmt::format("asked {:.3g}, ", *error_asked) : "", error.mean, error.points, error.median,
-        error.p95, error.bias, error.noise);
+        error_asked ? fmt::format("asked {:.3g}, ", *error_asked) : "",
+        refinements ? fmt::format("after {} refinement{} ", refinements, refinements == 1 ? "" : "s") : "", error.mean,
+        error.points, error.median, error.p95, error.bias, error.noise);
   if (error.points == 0 || !error_asked) return;
   if (error.mean - error.noise > *error_asked)  // the measured mean contains the measurement's noise
-    fmt::print("             above the asked error; more --rays lower the records' own noise\n");
+    fmt::print("             above the asked error; {}\n",
+               adaptive ? "--refine N works on that" : "more --rays lower the records' own noise");
   else if (error.mean > 1.5 * *error_asked)
     fmt::print("             whether the asked error is met is not measurable at this noise\n");
 }
@@ -63,6 +65,7 @@ void Statistics::write_json(const std::string& path) const {
             {"samples", samples},
             {"rounds", rounds},
             {"passes", passes},
+            {"refinements", refinements},
             {"rays",
              {{"camera", rays.camera},
               {"shadow", rays.shadow},

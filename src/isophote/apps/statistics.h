@@ -17,7 +17,7 @@ struct Statistics {
   int extrapolate = 0;
   Strata strata;
   std::size_t records = 0, rounds = 0, triangles = 0;
-  int passes = 0;
+  int passes = 0, refinements = 0;
   std::uint64_t uncovered = 0, samples = 0, seed = 0;
   int threads = 0, width = 0, height = 0;
   RayCounts rays;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "isophote/core/error.h"
@@ -62,6 +61,7 @@ constexpr Metric metric_table[] = {
      .paper = "[Jarosz 2012]",
      .bounded = true,
      .needs = 2,
+     .a_factor = 2,
      .measure = [](const Jet<Rgb>& jet, const View& view,
                    const MetricSettings& s) { return total_error(jet, view, s.a, s.bounds, s.aspect); },
      .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
@@ -92,7 +92,7 @@ constexpr const Metric &split = row(metric_table, "split-sphere"), &bounded = ro
 
 constexpr float any_aspect = std::numeric_limits<float>::infinity();
 const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = true};
-const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.15f, .neighbours = true};
+const RadiusBounds cached_preset{.min_pixels = 1.5f, .max_view = 1 / 16.0f};
 const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = true};
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.
@@ -123,7 +123,15 @@ const Method method_table[] = {
      {.bounds = swept_preset, .aspect = 2},
      2},
     {"uniform", "", "one radius everywhere: the control", &swept, &one_radius, {}, 1},
-    {"cached", "", "the best combination there is here", &exact, &bounded, {.bounds = cached_preset}, 1, true},
+    {"cached",
+     "",
+     "the best combination there is here",
+     &swept,
+     &total,
+     {.bounds = cached_preset, .aspect = 2},
+     2,
+     true,
+     true},
 };
 
 template <class Table>
@@ -157,7 +165,7 @@ double Method::error() const { return std::pow(settings.a / metric->a_factor, 1 
 
 float Method::noise() const {
   // A value is read from a few records, whose errors average out in part, and of the mean of their size.
-  const double of_error = getenv("ISO_N") ? atof(getenv("ISO_N")) : 1;
+  constexpr double of_error = 1.4;
   return static_cast<float>(of_error * error());
 }
 

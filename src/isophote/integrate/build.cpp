@@ -142,6 +142,7 @@ class Builder {
       const auto id =
           cache_.insert(job_.method.make_record(place.position, place.normal, first.jets[i], view_of(job_, place)));
       job_.method.settle(cache_.settling(), {&id, 1});
+      report_.places.push_back(place);
     }
     std::erase_if(candidates, [&](Candidate& c) {
       bool covered = false;
@@ -211,6 +212,7 @@ class Builder {
     fresh.reserve(made.size());
     for (const Record& record : made) fresh.push_back(cache_.insert(record));
     job_.method.settle(cache_.settling(), fresh);
+    report_.places.insert(report_.places.end(), places.begin(), places.end());
     return fresh;
   }
 

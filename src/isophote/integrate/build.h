@@ -1,6 +1,6 @@
 #pragma once
 
-#include "isophote/cache/record_cache.h"
+#include "isophote/integrate/gather.h"
 #include "isophote/integrate/job.h"
 
 namespace isophote {
@@ -10,7 +10,8 @@ struct BuildReport {
   std::size_t rounds = 0;
   int passes = 0;  ///< over all pixels, each through another sample of them
   RayCounts rays;
-  Pilot pilot{};  ///< of the survey, where the method wanted one
+  Pilot pilot{};              ///< of the survey, where the method wanted one
+  std::vector<Place> places;  ///< of the records added, in their order
   bool cancelled = false;
 };
 

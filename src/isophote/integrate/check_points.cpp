@@ -35,8 +35,8 @@ double reference(const Job& job, const Place& place, int rays, std::uint64_t key
 }
 
 /// A random visible point that the cache covers, and what a path-traced gather finds there.
-CheckPoint check_point(const Job& job, const RecordCache& cache, std::size_t index, RayCounts& counts) {
-  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::check), job.seed);
+CheckPoint check_point(const Job& job, const RecordCache& cache, int turn, std::size_t index, RayCounts& counts) {
+  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::check), job.seed, turn);
   Sampler stream(key, static_cast<std::uint32_t>(index));
   const Vec2 at = stream.next2();
   const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
@@ -82,15 +82,16 @@ MeasuredError summary(const std::vector<CheckPoint>& points) {
 
 }  // namespace
 
-MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget) {
+MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget, int turn) {
   std::vector<CheckPoint> points(fewest);
   RayCounts rays;
   std::size_t total = most;  // not known before the first points have been measured
   const auto measure = [&](std::size_t from) {
     for (; from < points.size() && !job.progress.stop(); from += between_stops) {
-      rays += for_each(
-          job.parallel, std::min(between_stops, points.size() - from), 1,
-          [&](std::size_t i, RayCounts& counts) { points[from + i] = check_point(job, cache, from + i, counts); });
+      rays += for_each(job.parallel, std::min(between_stops, points.size() - from), 1,
+                       [&](std::size_t i, RayCounts& counts) {
+                         points[from + i] = check_point(job, cache, turn, from + i, counts);
+                       });
       const std::size_t done = std::min(points.size(), from + between_stops);
       job.progress.tell("check", static_cast<double>(done) / static_cast<double>(total));
     }

@@ -15,7 +15,8 @@ struct MeasuredError {
 };
 
 /// Compares the cache with path-traced gathers at random visible points, as many as `ray_budget` rays pay for, but no
-/// fewer than 40 and no more than 1024.
-MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget);
+/// fewer than 40 and no more than 1024. Each `turn` has points of its own: a cache that was refined where it was
+/// measured is measured elsewhere.
+MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget, int turn = 0);
 
 }  // namespace isophote
