@@ -10,6 +10,7 @@
 #include "isophote/core/error.h"
 #include "isophote/image/png.h"
 #include "isophote/integrate/explain_picture.h"
+#include "isophote/integrate/pilot.h"
 
 namespace isophote::app {
 namespace {
@@ -73,6 +74,8 @@ int explain(const ExplainRequest& request) {
     fmt::print(stderr, "isophote: interrupted: the records are not complete\n");
     return 1;
   }
+  RayCounts counts;
+  job.pilot = run_pilot(job, counts);
   const Explanation explanation = isophote::explain(job, cache, at.x, at.y);
   const ExplainedPixel pixel{job, cache, at.x, at.y};
   request.json ? print_explanation_json(pixel, explanation) : print_explanation(pixel, explanation);

@@ -93,11 +93,11 @@ int run(int argc, char** argv) {
   CLI::App program("Isophote: global illumination by caching light and its derivatives", "isophote");
   program.set_version_flag("--version", ISOPHOTE_VERSION);
   app::RenderRequest render_request;
+  app::ExplainRequest explain_request;
   app::CompareRequest compare_request;
   add_render(program, render_request);
-  app::ExplainRequest explain_request;
-  add_compare(program, compare_request);
   add_explain(program, explain_request);
+  add_compare(program, compare_request);
   program.add_subcommand("methods", "List the methods, estimators and metrics");
   const std::string first = argc > 1 ? argv[1] : "";
   std::string verbs;
@@ -115,8 +115,8 @@ int run(int argc, char** argv) {
     throw UsageError(std::string(error.what()) + " (see isophote " + (is_verb ? first + " " : "") + "--help)");
   }
   if (program.got_subcommand("render")) return app::render(render_request);
-  if (program.got_subcommand("compare")) return app::compare(compare_request);
   if (program.got_subcommand("explain")) return app::explain(explain_request);
+  if (program.got_subcommand("compare")) return app::compare(compare_request);
   if (program.got_subcommand("methods")) return app::methods();
   throw UsageError("wants one of " + verbs + " (see isophote --help)");
 }

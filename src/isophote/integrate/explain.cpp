@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "isophote/integrate/build.h"
-#include "isophote/integrate/pilot.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {
@@ -20,9 +19,8 @@ float angle_between(const Vec3& a, const Vec3& b) { return 2 * std::asin(std::mi
 class Reaches {
  public:
   explicit Reaches(const Job& job) : method_(job.method), scale_(job.method.error_model().scale) {
-    RayCounts counts;
     view_.scene_scale = job.world.rays.scene_scale();
-    view_.pilot = run_pilot(job, counts);
+    view_.pilot = job.pilot;
   }
 
   Reach operator()(const Record& record) const {

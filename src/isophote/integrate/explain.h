@@ -52,6 +52,7 @@ struct Explanation {
   std::vector<NearMiss> near_misses;   ///< a few, the nearest to serving first
   Radiance mean;                       ///< of all samples of the pixel
 };
+/// job.pilot is to be that of the records: metrics are asked anew what they wanted.
 Explanation explain(const Job& job, const RecordCache& cache, int x, int y);
 
 }  // namespace isophote

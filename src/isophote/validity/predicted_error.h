@@ -6,9 +6,9 @@ namespace isophote {
 
 /// What a method's predictions rest on.
 struct ErrorModel {
-  bool by_hessian = false;  ///< the records' Hessians are estimated; else the metric's own measure has to do
-  float threshold = 0;      ///< of the metric: its measure at the rim of a footprint that nothing has bounded
-  float scale = 1;          ///< the radius of such a footprint over the unscaled one
+  bool by_hessian = false;      ///< the records' Hessians are estimated; else the metric's own measure has to do
+  float threshold = 0;          ///< of the metric: its measure at the rim of a footprint that nothing has bounded
+  float scale = 1;              ///< the radius of such a footprint over the unscaled one
   float factor = 1, power = 1;  ///< a threshold of factor * error^power aims at that mean relative error
 };
 
