@@ -44,7 +44,7 @@ class Rendering {
     else
       final_pass(nullptr, film);
     write(film);
-    session_.display().clear();
+    display_.clear();
     statistics_.print();
     return statistics_.cancelled ? 1 : 0;
   }
@@ -65,7 +65,7 @@ class Rendering {
   void render_cached(Film& film) {
     const Clock begin = Clock::now();
     RecordCache cache = session_.starting_cache();
-    if (session_.settings().lazy) {
+    if (settings_.lazy) {
       const LazyReport report = render_lazily(job(), cache, film);
       statistics_.time.build = report.build;
       statistics_.rays += report.build_rays;
@@ -85,7 +85,7 @@ class Rendering {
 
   /// Pictures of what the cache is like.
   void show(const RecordCache& cache) {
-    session_.display().clear();
+    display_.clear();
     if (const std::string& file = request_.records_picture; !file.empty()) {
       const RecordColour colour = record_colour(request_);
       const auto [picture, scale] = record_picture(job(), cache, colour);
@@ -125,7 +125,7 @@ class Rendering {
   }
 
   void check(const RecordCache& cache) {
-    session_.display().show("check", 0);
+    display_.show("check", 0);
     const Clock begin = Clock::now();
     statistics_.error = check_points(job(), cache, build_rays_ / 5);
     statistics_.cancelled = Interruptible::interrupted();
@@ -147,11 +147,11 @@ class Rendering {
   }
 
   float exposure(const RgbImage& image) const {
-    return session_.settings().exposure ? *session_.settings().exposure : auto_exposure(image);
+    return settings_.exposure ? *settings_.exposure : auto_exposure(image);
   }
 
   void write(const Film& film) {
-    session_.display().clear();
+    display_.clear();
     for (const std::string& output : request_.outputs) {
       if (output.ends_with(".exr")) {
         ExrFile file = film.exr();
@@ -182,11 +182,10 @@ class Rendering {
       s.extrapolate = std::min(job.method.order, job.method.estimator->order);
       s.bounds = describe(job.method.settings.bounds);
     }
-    s.lazy = session_.settings().lazy, s.secondary = job.method.secondary, s.strata = job.strata;
+    s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
     // Where a threshold or a number of records was given, no error was asked for.
-    if (!session_.settings().a && !session_.settings().records)
-      s.error_asked = session_.settings().error.value_or(default_error);
-    s.seed = session_.settings().seed, s.threads = session_.threads();
+    if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
+    s.seed = settings_.seed, s.threads = session_.threads();
     s.width = job.width, s.height = job.height, s.triangles = session_.loaded().scene.triangle_count();
     s.samples = film.samples();
     s.time.total = Clock::now() - session_.start();
@@ -194,6 +193,8 @@ class Rendering {
 
   const RenderRequest& request_;
   Session session_;
+  const RenderSettings& settings_ = session_.settings();
+  ProgressDisplay& display_ = session_.display();
   Statistics statistics_;
   RecordMaps maps_;
   std::uint64_t build_rays_ = 0;
