@@ -13,9 +13,9 @@ class BadUsage(ProgramTest):
         self.refused(2, ("render", BOX, *quick("-o", "out.exr", *flags)), *mentions)
 
     def test_verbs_and_flags(self):
-        self.refused(2, (), "render, compare, methods")
+        self.refused(2, (), "render, explain, compare, methods")
         for arguments in (("rendr",), ("rendr", "x"), ("rendr", "--help"), ("",)):
-            self.refused(2, arguments, f"unknown command '{arguments[0]}'; there are: render, compare, methods\n")
+            self.refused(2, arguments, f"unknown command '{arguments[0]}'; there are: render, explain, compare, methods\n")
         self.refused(2, ("--nonsense",), "--nonsense", "(see isophote --help)")
         self.refused(2, ("render", "x", "--nonsense"), "--nonsense", "(see isophote render --help)")
         self.refused(2, ("compare", "a.exr"), "(see isophote compare --help)")
@@ -38,7 +38,7 @@ class BadUsage(ProgramTest):
         self.refused_render(("--method", "ward1992", "--metric", "total-error"), "total-error", "ward-heckbert", "Hessian")
         self.refused_render(("--method", "ward1992", "--extrapolate", "2"), "--extrapolate 2", "ward-heckbert")
         for flags in (("--metric", "uniform"), ("--estimator", "irradiance"), ("--records", "100"), ("--order", "lazy"),
-                      ("--save-cache", "c"), ("--load-cache", "c"), ("--show-records", "r.png")):
+                      ("--save-cache", "c"), ("--load-cache", "c"), ("--show-records", "r.png"), ("--show-error", "e.png")):
             self.refused_render(("--method", "path", *flags), "path")
         self.refused_render(("--secondary", "on", "--max-depth", "3"), "--max-depth")
         self.refused_render(("--records", "100", "--order", "lazy"), "--records")
@@ -68,6 +68,8 @@ class BadUsage(ProgramTest):
             "-o": ("out.jpg", "out", ""),
             "--preview": ("p.exr",),
             "--show-records": ("p.exr",),
+            "--show-error": ("p.exr",),
+            "--show-density": ("p.exr",),
         }.items():
             for value in values:
                 with self.subTest(flag=flag, value=value):
@@ -202,7 +204,8 @@ class UnwritableOutput(ProgramTest):
         (self.folder / "folder.exr").mkdir()
         for flags in (("-o", "nowhere/out.exr"), ("-o", "nowhere/out.png"), ("-o", "file/out.exr"), ("-o", "folder.exr"),
                       ("-o", "out.exr", "--stats", "nowhere/s.json"), ("-o", "out.exr", "--preview", "nowhere/p.png"),
-                      ("-o", "out.exr", "--show-records", "nowhere/r.png"), ("-o", "out.exr", "--save-cache", "nowhere/c")):
+                      ("-o", "out.exr", "--show-records", "nowhere/r.png"), ("-o", "out.exr", "--show-error", "nowhere/e.png"),
+                      ("-o", "out.exr", "--save-cache", "nowhere/c")):
             with self.subTest(flags=flags):
                 self.refused(1, ("render", BOX, *quick(*flags)), flags[-1])
 

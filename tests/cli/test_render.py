@@ -7,7 +7,7 @@ import subprocess
 
 from program import BOX, PROGRAM, SCENES, ProgramTest, picture_channels, png_size, quick
 
-LAYERS = {"R", "G", "B", "A", "depth.Z", "normal.X", "normal.Y", "normal.Z"} | {
+LAYERS = {"R", "G", "B", "A", "depth.Z", "error", "density", "normal.X", "normal.Y", "normal.Z"} | {
     f"{layer}.{c}" for layer in ("direct", "indirect", "irradiance", "albedo") for c in "RGB"}
 
 
@@ -25,6 +25,11 @@ class Outputs(ProgramTest):
             for whole, direct, indirect in zip(channels[c], channels["direct." + c], channels["indirect." + c]):
                 self.assertAlmostEqual(whole, direct + indirect, delta=1e-5 * (1 + whole))
         self.assertGreater(sum(channels["irradiance.G"]), 0)
+        # Of what records serve: an error of 0 only in the very place of a record.
+        served = [n > 0 for n in channels["density"]]
+        self.assertGreater(sum(served), 0.5 * sum(channels["A"]))
+        for alpha, is_served, error in zip(channels["A"], served, channels["error"]):
+            self.assertTrue(alpha > 0 and 0 <= error <= 1 if is_served else error == 0)
 
     def test_the_scene_may_follow_an_output(self):
         self.done("render", "-o", "a.png", BOX, *quick("-o", "b.png"))
@@ -205,7 +210,7 @@ class Cameras(ProgramTest):
 
 class Manners(ProgramTest):
     def test_help_version_and_methods(self):
-        for arguments in (("--help",), ("render", "--help"), ("compare", "--help"), ("--version",)):
+        for arguments in (("--help",), ("render", "--help"), ("compare", "--help"), ("explain", "--help"), ("--version",)):
             said = self.done(*arguments).stdout
             self.assertTrue(said)
             for unreadable in ("INT", "TEXT", "FLOAT", "{", " ..."):

@@ -26,6 +26,31 @@ TEST(FalseColour, ClampsItsArgument) {
   }
 }
 
+TEST(ColourScale, LeavesOutTwoPercentAndWhatIsNotAboveZero) {
+  std::vector<float> values{0, -1};
+  for (int i = 1; i <= 100; ++i) values.push_back(static_cast<float>(i));
+  const ColourScale linear = colour_scale(values, false), logarithmic = colour_scale(values, true);
+  EXPECT_EQ(linear.low, 0);
+  EXPECT_EQ(linear.high, 98);
+  EXPECT_EQ(logarithmic.low, 3);
+  EXPECT_EQ(logarithmic.high, 98);
+  EXPECT_EQ(linear(49), false_colour(0.5f));
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(logarithmic(std::sqrt(3 * 98.0f))[k], false_colour(0.5f)[k], 1e-5f);
+  for (const ColourScale& scale : {linear, logarithmic}) {
+    EXPECT_EQ(scale(0), false_colour(0));
+    EXPECT_EQ(scale(1e9f), false_colour(1));
+  }
+}
+
+TEST(ColourScale, OfNothingAndOfOneValue) {
+  for (const bool logarithmic : {false, true})
+    for (const std::vector<float>& values : {std::vector<float>{}, std::vector<float>{7, 7, 7}}) {
+      const ColourScale scale = colour_scale(values, logarithmic);
+      EXPECT_LT(scale.low, scale.high);
+      EXPECT_TRUE(is_finite(scale(7)));
+    }
+}
+
 TEST(ErrorPicture, IsBlueWhereTooDarkAndRedWhereTooBright) {
   RgbImage reference(4, 1, Rgb(2.0f)), image(4, 1, Rgb(2.0f));
   image.pixels[1] = Rgb(2.5f);   // +25% of the mean, half the range

@@ -117,7 +117,7 @@ TEST(RecordPicture, DrawsADotAtEachRecordAndARimAroundIt) {
   record.footprint = Footprint::disk(0.3f, 1);
   record.jet.value = Rgb(1);
   cache.insert(record);
-  const RgbImage picture = record_picture(job, cache);
+  const RgbImage picture = record_picture(job, cache, RecordColour::radius).picture;
   int dot_pixels = 0, coloured = 0, filled = 0, black = 0;
   for (const Rgb& p : picture.pixels) {
     if (p == Rgb(1))

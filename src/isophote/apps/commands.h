@@ -7,17 +7,30 @@
 
 namespace isophote::app {
 
-/// What `isophote render` was asked for.
-struct RenderRequest {
+/// What every verb that works on a scene is told.
+struct SceneRequest {
   std::string scene;
-  std::vector<std::string> outputs;             ///< .exr or .png
-  std::string stats, preview, records_picture;  ///< files; empty: none
-  std::string save_cache, load_cache;
-  std::string progress;  ///< bar, json, none; empty: bar on a terminal
-  int threads = 0;       ///< 0: all
-  bool check = true;
-  int refine = 0;                                             ///< times at most
+  std::string load_cache;                                     ///< file; empty: none
+  std::string progress;                                       ///< bar, json, none; empty: bar on a terminal
+  int threads = 0;                                            ///< 0: all
   std::vector<std::pair<std::string, std::string>> settings;  ///< flags of settings.h's table, in their order
+};
+
+/// What `isophote render` was asked for.
+struct RenderRequest : SceneRequest {
+  std::vector<std::string> outputs;        ///< .exr or .png
+  std::string stats, preview, save_cache;  ///< files; empty: none
+  std::string records_picture, error_picture, density_picture;
+  std::string record_colour;  ///< radius or error; empty: radius
+  bool check = true;
+  int refine = 0;  ///< times at most
+};
+
+/// What `isophote explain` was asked for.
+struct ExplainRequest : SceneRequest {
+  std::string pixel;    ///< "X,Y", from the top left
+  std::string picture;  ///< file; empty: none
+  bool json = false;
 };
 
 struct CompareRequest {
@@ -29,6 +42,7 @@ struct CompareRequest {
 
 // Each returns the exit code: 0 done, 1 failed. They throw UserError and UsageError.
 int render(const RenderRequest& request);
+int explain(const ExplainRequest& request);
 int compare(const CompareRequest& request);
 int methods();
 

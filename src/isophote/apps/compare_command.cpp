@@ -15,6 +15,22 @@
 namespace isophote::app {
 namespace {
 
+/// The layers and the channels that `layer_of` takes.
+std::string what_there_is(const ExrFile& file) {
+  const std::vector<std::string> colours = file.layers();
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const std::string& layer : colours) add(layer.empty() ? "R,G,B" : layer);
+  for (const ExrFile::Channel& channel : file.channels) {
+    const auto dot = channel.name.rfind('.');
+    const std::string layer = dot == std::string::npos ? "" : channel.name.substr(0, dot);
+    const std::string last = dot == std::string::npos ? channel.name : channel.name.substr(dot + 1);
+    const bool in_layer = last.size() == 1 && std::string_view("RGBXYZ").find(last) != std::string_view::npos;
+    if (!in_layer || std::find(colours.begin(), colours.end(), layer) == colours.end()) add(channel.name);
+  }
+  return names;
+}
+
 /// A layer of colours; or one of a single channel, as grey: `depth.Z`, or `depth` for short.
 RgbImage layer_of(const ExrFile& file, const std::string& layer) {
   const std::vector<std::string> colours = file.layers();
@@ -25,7 +41,7 @@ RgbImage layer_of(const ExrFile& file, const std::string& layer) {
       for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = Rgb(channel->values[i]);
       return image;
     }
-  return file.rgb(layer);  // says what there is
+  throw UserError(fmt::format("no layer '{}'; there is: {}", layer.empty() ? "R,G,B" : layer, what_there_is(file)));
 }
 
 RgbImage read_layer(const std::string& path, const std::string& layer, int block) {

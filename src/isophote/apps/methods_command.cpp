@@ -1,30 +1,13 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "isophote/apps/commands.h"
+#include "isophote/apps/table.h"
 #include "isophote/cache/catalogue.h"
 
 namespace isophote::app {
-namespace {
-
-using Row = std::vector<std::string>;
-
-/// Columns as wide as what they hold; all rows have as many cells as the first, the heading.
-void print_table(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const Row& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) fmt::print("{:<{}}  ", row[i], widths[i]);
-    fmt::print("{}\n", row.back());
-  }
-}
-
-}  // namespace
-
 int methods() {
   std::vector<Row> rows = {{"method", "estimator", "metric", "bounds", "secondary", "what it is"}};
   for (const Method& m : isophote::methods()) {

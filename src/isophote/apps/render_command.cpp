@@ -2,63 +2,45 @@
 
 #include <algorithm>
 
-#include "isophote/apps/progress_display.h"
 #include "isophote/apps/render_request.h"
+#include "isophote/apps/session.h"
 #include "isophote/apps/statistics.h"
-#include "isophote/apps/threads.h"
-#include "isophote/cache/record_file.h"
-#include "isophote/core/error.h"
 #include "isophote/image/png.h"
+#include "isophote/integrate/record_maps.h"
 #include "isophote/integrate/record_picture.h"
 #include "isophote/integrate/refine.h"
 #include "isophote/integrate/render.h"
-#include "isophote/integrate/scene_hash.h"
-#include "isophote/integrate/solve_records.h"
-#include "isophote/load/memory_budget.h"
-#include "isophote/load/scene_file.h"
 
 namespace isophote::app {
 namespace {
 
-/// Refuses pictures that do not fit in memory: the film, and twice as much again for the layers made of it and their
-/// encoding.
-void check_size(int width, int height) {
-  const std::uint64_t bytes =
-      3 * sizeof(PixelSample) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  MemoryBudget(physical_memory()).take(bytes, fmt::format("a picture of {} x {} pixels", width, height));
+RecordColour record_colour(const RenderRequest& request) {
+  return request.record_colour == "error" ? RecordColour::error : RecordColour::radius;
 }
 
-/// What shapes records, for the record file. The view and the seed do not matter: records of another view or seed serve
-/// as well.
-std::string record_settings(const Job& job) {
-  const RadiusBounds& b = job.method.settings.bounds;
-  return fmt::format(
-      "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmax-view={}\nmin-radius={}\nmax-"
-      "radius={}\n"
-      "bound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}\nsecondary={}\n"
-      "max-depth={}\n",
-      job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels,
-      b.min_view, b.max_view, b.min_length, b.max_length, b.gradient, b.neighbours, job.method.settings.aspect,
-      job.method.order, job.method.settings.falloff ? static_cast<int>(*job.method.settings.falloff) : -1,
-      job.method.adaptive ? "auto" : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal), job.method.secondary,
-      job.world.max_depth);
+/// The legend of a picture in false colours.
+void tell_scale(const std::string& file, const std::string& what, const ColourScale& scale) {
+  fmt::print("{}: {}, from {:.3g} (violet) to {:.3g} (yellow){}\n", file, what, scale.low, scale.high,
+             scale.logarithmic ? ", logarithmic" : "");
 }
 
 /// One run of `isophote render`, step by step.
 class Rendering {
  public:
-  explicit Rendering(const RenderRequest& request)
-      : request_(request), threads_(request.threads), display_(request.progress), start_(Clock::now()) {
+  explicit Rendering(const RenderRequest& request) : request_(request), session_(request) {
     // What the flags say wrongly is said before the scene is read; a scene file may yet complete a combination.
     const RenderSettings flags = merged_settings(request, {});
-    if (!request.scene.ends_with(".toml")) check_against_method(request, flags, chosen_method(flags));
+    if (request.scene.ends_with(".toml")) return;
+    const Method method = chosen_method(flags);
+    check_method(request, flags, method);
+    check_against_method(request, flags, method);
   }
 
   int run() {
     check_outputs(request_);
     load();
-    Film film(job_->width, job_->height);
-    if (job_->method.caches())
+    Film film(job().width, job().height);
+    if (job().method.caches())
       render_cached(film);
     else
       final_pass(nullptr, film);
@@ -69,50 +51,24 @@ class Rendering {
   }
 
  private:
+  Job& job() { return session_.job(); }
+
   void load() {
-    display_.show("load", 0);
-    loaded_ = load_scene(request_.scene, [this](const std::string& line) {
-      display_.clear();
-      fmt::print(stderr, "isophote: warning: {}\n", line);
-    });
-    check_scene_is_kept(request_, loaded_.files);
-    settings_ = merged_settings(request_, loaded_.settings);
-    const Method method = chosen_method(settings_);
-    check_against_method(request_, settings_, method);
-    const Camera camera = chosen_camera(settings_, loaded_.scene);
-    rays_.emplace(loaded_.scene);
-    try {
-      emitters_.emplace(loaded_.scene);
-    } catch (const UserError& error) {
-      throw UserError(fmt::format("{}: {}", request_.scene, error.what()));
-    }
-    job_.emplace(
-        Job{World{loaded_.scene, *rays_, *emitters_, settings_.max_depth.value_or(std::numeric_limits<int>::max())},
-            camera});
-    Job& job = *job_;
-    job.height = settings_.height.value_or(512);
-    job.width = settings_.width.value_or(
-        std::clamp(static_cast<int>(std::lround(512 * (camera.aspect > 0 ? camera.aspect : 1))), 1, 32768));
-    check_size(job.width, job.height);
-    job.samples = settings_.samples;
-    job.seed = settings_.seed;
-    job.method = method;
-    const int rays = settings_.rays.value_or(0);
-    job.strata = Strata::about(rays > 0 ? rays : default_rays);
-    job.parallel = threads_.parallel_for();
-    job.progress.report = [this](std::string_view phase, double done) { display_.show(phase, done); };
-    job.progress.cancelled = Interruptible::interrupted;
+    session_.read();
+    check_scene_is_kept(request_, session_.loaded().files);
+    check_against_method(request_, session_.settings(), session_.method());
+    session_.prepare();
     if (!request_.preview.empty())
-      job.progress.preview = [this](const RgbImage& image) { write_png(request_.preview, image, exposure(image)); };
-    statistics_.time.load = Clock::now() - start_;
+      job().progress.preview = [this](const RgbImage& image) { write_png(request_.preview, image, exposure(image)); };
+    statistics_.time.load = Clock::now() - session_.start();
   }
 
   void render_cached(Film& film) {
     const Clock begin = Clock::now();
-    RecordCache cache = starting_cache();
+    RecordCache cache = session_.starting_cache();
     if (settings_.lazy) {
-      const LazyReport report = render_lazily(*job_, cache, film);
-      job_->pilot = report.pilot;
+      const LazyReport report = render_lazily(job(), cache, film);
+      job().pilot = report.pilot;
       statistics_.time.build = report.build;
       statistics_.rays += report.build_rays;
       build_rays_ = report.build_rays.total();
@@ -125,29 +81,44 @@ class Rendering {
       final_pass(&cache, film);
     }
     statistics_.records = cache.records().size();
-    if (!request_.save_cache.empty()) save(cache);
-    if (!request_.records_picture.empty()) write_png(request_.records_picture, record_picture(*job_, cache), 0);
+    if (!request_.save_cache.empty()) session_.save(cache, request_.save_cache);
+    show(cache);
     if (request_.check && !measured_ && !statistics_.cancelled) check(cache);
   }
 
-  RecordCache starting_cache() {
-    RecordCache cache = empty_cache(*job_);
-    if (request_.load_cache.empty()) return cache;
-    const RecordFile file = read_records(request_.load_cache);
-    require_match(request_.load_cache, file, scene_hash(loaded_.scene), record_settings(*job_));
-    for (const Record& record : file.records) cache.insert(record);
-    return cache;
+  /// Pictures of what the cache is like.
+  void show(const RecordCache& cache) {
+    display_.clear();
+    if (const std::string& file = request_.records_picture; !file.empty()) {
+      const RecordColour colour = record_colour(request_);
+      const auto [picture, scale] = record_picture(job(), cache, colour);
+      write_png(file, picture, 0);
+      tell_scale(file,
+                 colour == RecordColour::radius ? "radius of footprints, m" : "predicted relative error at the rim",
+                 scale);
+    }
+    if (!wants_maps()) return;
+    maps_ = record_maps(job(), cache);
+    show(request_.error_picture, "predicted relative error", maps_.error, false);
+    show(request_.density_picture, "records per square metre", maps_.density, true);
+  }
+  bool wants_maps() const {
+    return !request_.error_picture.empty() || !request_.density_picture.empty() ||
+           std::any_of(request_.outputs.begin(), request_.outputs.end(),
+                       [](const std::string& file) { return file.ends_with(".exr"); });
+  }
+  void show(const std::string& file, const std::string& what, const std::vector<float>& values, bool logarithmic) {
+    if (file.empty()) return;
+    const ColourScale scale = colour_scale(values, logarithmic);
+    RgbImage picture(job().width, job().height);
+    // Where no record serves there is no density, and black in both.
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (maps_.density[i] > 0) picture.pixels[i] = scale(values[i]);
+    write_png(file, picture, 0);
+    tell_scale(file, what, scale);
   }
 
-  void build(RecordCache& cache) {
-    if (settings_.records) {
-      Solved solved = build_with_records(*job_, static_cast<std::size_t>(*settings_.records));
-      cache = std::move(solved.cache);
-      added(std::move(solved.report));
-    } else {
-      added(build_in_rounds(*job_, cache));
-    }
-  }
+  void build(RecordCache& cache) { added(session_.build(cache)); }
 
   /// Works on the cache until it is measured to be as good as was asked, or as often as was allowed.
   void refine(RecordCache& cache) {
@@ -157,8 +128,8 @@ class Rendering {
       const MeasuredError& error = statistics_.error;
       if (statistics_.cancelled || error.points == 0 || error.mean <= settings_.error.value_or(default_error)) return;
       const Clock begin = Clock::now();
-      job_->method.settings.a = refined_threshold(job_->method, error.mean);
-      added(isophote::refine(*job_, cache, places_));
+      job().method.settings.a = refined_threshold(job().method, error.mean);
+      added(isophote::refine(job(), cache, places_));
       statistics_.time.build += Clock::now() - begin;
     }
   }
@@ -166,7 +137,7 @@ class Rendering {
   /// Takes account of records that were added to the cache.
   void added(BuildReport report) {
     measured_ = false;
-    job_->pilot = report.pilot;
+    job().pilot = report.pilot;
     places_ = std::move(report.places);
     statistics_.rounds += report.rounds;
     statistics_.passes += report.passes;
@@ -179,7 +150,7 @@ class Rendering {
     display_.show("check", 0);
     const Clock begin = Clock::now();
     measured_ = true;
-    statistics_.error = check_points(*job_, cache, build_rays_ / 5, statistics_.refinements);
+    statistics_.error = check_points(job(), cache, build_rays_ / 5, statistics_.refinements);
     statistics_.cancelled = Interruptible::interrupted();
     statistics_.rays += statistics_.error.rays;
     statistics_.time.check += Clock::now() - begin;
@@ -187,7 +158,7 @@ class Rendering {
 
   void final_pass(const RecordCache* cache, Film& film) {
     const Clock begin = Clock::now();
-    const RenderReport report = isophote::render(*job_, cache, film);
+    const RenderReport report = isophote::render(job(), cache, film);
     note(report, Clock::now() - begin);
   }
 
@@ -198,12 +169,6 @@ class Rendering {
     statistics_.cancelled = statistics_.cancelled || report.cancelled;
   }
 
-  void save(const RecordCache& cache) {
-    const auto records = cache.records();
-    write_records(request_.save_cache,
-                  {scene_hash(loaded_.scene), record_settings(*job_), {records.begin(), records.end()}});
-  }
-
   float exposure(const RgbImage& image) const {
     return settings_.exposure ? *settings_.exposure : auto_exposure(image);
   }
@@ -212,7 +177,12 @@ class Rendering {
     display_.clear();
     for (const std::string& output : request_.outputs) {
       if (output.ends_with(".exr")) {
-        write_exr(output, film.exr());
+        ExrFile file = film.exr();
+        if (job().method.caches()) {
+          file.add("error", maps_.error);
+          file.add("density", maps_.density);
+        }
+        write_exr(output, file);
         continue;
       }
       const RgbImage image = film.color();
@@ -226,7 +196,7 @@ class Rendering {
 
   void fill_statistics(const Film& film) {
     Statistics& s = statistics_;
-    const Job& job = *job_;
+    const Job& job = session_.job();
     s.method = job.method.name;
     if (job.method.caches()) {
       s.estimator = job.method.estimator->name;
@@ -239,23 +209,18 @@ class Rendering {
     s.adaptive = job.method.adaptive;
     // Where a threshold or a number of records was given, no error was asked for.
     if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
-    s.seed = settings_.seed, s.threads = threads_.count();
-    s.width = job.width, s.height = job.height, s.triangles = loaded_.scene.triangle_count();
+    s.seed = settings_.seed, s.threads = session_.threads();
+    s.width = job.width, s.height = job.height, s.triangles = session_.loaded().scene.triangle_count();
     s.samples = film.samples();
-    s.time.total = Clock::now() - start_;
+    s.time.total = Clock::now() - session_.start();
   }
 
   const RenderRequest& request_;
-  Threads threads_;
-  Interruptible interruptible_;
-  ProgressDisplay display_;
-  Clock start_;
-  RenderSettings settings_;
-  LoadedScene loaded_;
-  std::optional<RayCaster> rays_;
-  std::optional<Emitters> emitters_;
-  std::optional<Job> job_;
+  Session session_;
+  const RenderSettings& settings_ = session_.settings();
+  ProgressDisplay& display_ = session_.display();
   Statistics statistics_;
+  RecordMaps maps_;
   std::uint64_t build_rays_ = 0;
   bool measured_ = false;      // the cache as it is now
   std::vector<Place> places_;  // of the records that this run made

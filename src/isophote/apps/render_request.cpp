@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "isophote/apps/output_files.h"
 #include "isophote/core/atomic_file.h"
@@ -22,6 +22,8 @@ Files pictures_to_look_at(const RenderRequest& request) {
   Files files;
   add_flag(files, "--preview", request.preview);
   add_flag(files, "--show-records", request.records_picture);
+  add_flag(files, "--show-error", request.error_picture);
+  add_flag(files, "--show-density", request.density_picture);
   return files;
 }
 
@@ -39,33 +41,17 @@ Files all_outputs(const RenderRequest& request) {
   return files;
 }
 
-const Option& option_named(const std::string& name) {
-  const auto options = app::options();
-  return *std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.name == name; });
-}
-
-/// Flags that decide the same thing, and flags that method `path` has no use for. (A scene file may hold settings for
-/// another method, and a flag may override what the scene file decides.)
-void check_flags(const RenderRequest& request, const Method& method) {
-  std::string deciding;
-  for (const auto& [name, value] : request.settings) {
-    if (!method.caches() && option_named(name).caches)
-      throw UsageError(fmt::format("method 'path' caches nothing: it takes no --{}", name));
-    if (name != "error" && name != "a" && name != "records") continue;
-    if (!deciding.empty())
-      throw UsageError(fmt::format("--{} and --{} both decide how many records there are: give one", deciding, name));
-    deciding = name;
-  }
-}
-
 }  // namespace
 
 void check_request(const RenderRequest& request) {
-  if (request.outputs.empty() && request.stats.empty() && request.records_picture.empty() && request.save_cache.empty())
+  if (request.outputs.empty() && request.stats.empty() && request.save_cache.empty() &&
+      request.records_picture.empty() && request.error_picture.empty() && request.density_picture.empty())
     throw UsageError("nothing to write: give -o FILE.exr or FILE.png (or --stats, --show-records, --save-cache)");
   for (const std::string& output : request.outputs)
     if (!output.ends_with(".exr") && !output.ends_with(".png"))
       throw UsageError(fmt::format("-o {}: the name must end in .exr or .png", output));
+  if (!request.record_colour.empty() && request.records_picture.empty())
+    throw UsageError("--record-colour is of the picture of --show-records: give that too");
   for (const NamedFile& file : pictures_to_look_at(request)) require_png(file);
   check_distinct(all_outputs(request));
   check_kept(Files{{"the scene", request.scene}}, all_outputs(request));
@@ -83,26 +69,9 @@ void check_outputs(const RenderRequest& request) {
   for (const NamedFile& file : all_outputs(request)) AtomicFile{file.path};
 }
 
-RenderSettings merged_settings(const RenderRequest& request, const std::vector<Setting>& from_file) {
-  RenderSettings settings;
-  for (const Setting& s : from_file) apply_setting(settings, s.table, s.key, s.value, s.place);
-  for (const auto& [name, value] : request.settings) {
-    try {
-      option_named(name).apply(settings, value);
-    } catch (const UsageError& error) {
-      throw UsageError(fmt::format("--{}: {}", name, error.what()));
-    }
-  }
-  return settings;
-}
-
 void check_against_method(const RenderRequest& request, const RenderSettings& settings, const Method& method) {
-  check_flags(request, method);
   if (settings.lazy && !request.preview.empty())
     throw UsageError("--order lazy is one pass from the top: it takes no --preview");
-  if (!method.caches() &&
-      !(request.save_cache.empty() && request.load_cache.empty() && request.records_picture.empty()))
-    throw UsageError("method 'path' caches nothing: it takes no --save-cache, --load-cache or --show-records");
   if (request.refine > 0) {
     if (!request.check) throw UsageError("--refine goes by the measured error: it takes no --no-check");
     if (settings.a || settings.records || settings.lazy || !method.caches())
@@ -110,8 +79,14 @@ void check_against_method(const RenderRequest& request, const RenderSettings& se
           "--refine works towards an --error, with caches built in rounds: it takes no --a, --records, "
           "--order lazy or method 'path'");
   }
-  if (settings.records && (settings.lazy || !request.load_cache.empty()))
-    throw UsageError("--records builds caches in rounds and from nothing: it takes no --order lazy or --load-cache");
+  if (method.caches()) return;
+  const std::pair<const char*, const std::string*> needing_records[] = {{"--save-cache", &request.save_cache},
+                                                                        {"--load-cache", &request.load_cache},
+                                                                        {"--show-records", &request.records_picture},
+                                                                        {"--show-error", &request.error_picture},
+                                                                        {"--show-density", &request.density_picture}};
+  for (const auto& [flag, file] : needing_records)
+    if (!file->empty()) throw UsageError(fmt::format("method 'path' caches nothing: it takes no {}", flag));
 }
 
 }  // namespace isophote::app

@@ -21,10 +21,7 @@ void check_scene_is_kept(const RenderRequest& request, std::span<const std::stri
 /// A file that cannot be written is found out before the work, not after it. Throws UserError.
 void check_outputs(const RenderRequest& request);
 
-/// Flags win over the scene file, the scene file over defaults.
-RenderSettings merged_settings(const RenderRequest& request, const std::vector<Setting>& from_file);
-
-/// What the chosen way of rendering cannot do is refused, not left undone.
+/// What the chosen way of rendering cannot do is refused, not left undone: what `check_method` does not know of.
 void check_against_method(const RenderRequest& request, const RenderSettings& settings, const Method& method);
 
 }  // namespace isophote::app

@@ -41,13 +41,16 @@ void settle_by(const Settling& settling, std::span<const std::uint32_t> fresh, c
   settle(settling, fresh, {.scale = scale, .neighbours = s.bounds.neighbours, .slope = slope});
 }
 
+float split_sphere_scale(const MetricSettings& s) { return split_sphere_radius(1, s.a); }
+
 constexpr Metric metric_table[] = {
     {.name = "split-sphere",
      .paper = "[Ward, Rubinstein, Clear 1988]",
      .a_factor = 1.4f,
      .a_power = 0.5f,
      .measure = [](const Jet<Rgb>& jet, const View& view,
-                   const MetricSettings& s) { return split_sphere(jet, view, s.a); }},
+                   const MetricSettings& s) { return split_sphere(jet, view, s.a); },
+     .scale = split_sphere_scale},
     {.name = "bounded-split-sphere",
      .paper = "[Krivanek 2006]",
      .bounded = true,
@@ -56,7 +59,8 @@ constexpr Metric metric_table[] = {
      .measure = [](const Jet<Rgb>& jet, const View& view,
                    const MetricSettings& s) { return bounded_split_sphere(jet, view, s.a, s.bounds); },
      .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
-                  const MetricSettings& s) { settle_by(settling, fresh, s, split_sphere_radius(1, s.a), 1); }},
+                  const MetricSettings& s) { settle_by(settling, fresh, s, split_sphere_scale(s), 1); },
+     .scale = split_sphere_scale},
     {.name = "total-error",
      .paper = "[Jarosz 2012]",
      .bounded = true,
@@ -171,6 +175,14 @@ float Method::noise() const {
 
 void Method::settle(const Settling& settling, std::span<const std::uint32_t> fresh) const {
   if (metric->settle && !fresh.empty()) metric->settle(settling, fresh, settings);
+}
+
+ErrorModel Method::error_model() const {
+  return {.by_hessian = estimator->order > 1,
+          .threshold = settings.a,
+          .scale = metric->scale ? metric->scale(settings) : 1,
+          .factor = metric->a_factor,
+          .power = metric->a_power};
 }
 
 std::span<const Estimator> estimators() { return estimator_table; }

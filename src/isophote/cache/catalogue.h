@@ -7,6 +7,7 @@
 
 #include "isophote/derivatives/gather.h"
 #include "isophote/validity/neighbour_index.h"
+#include "isophote/validity/predicted_error.h"
 #include "isophote/validity/radius_bounds.h"
 
 namespace isophote {
@@ -35,6 +36,8 @@ struct Metric {
   Footprint (*measure)(const Jet<Rgb>&, const View&, const MetricSettings&) = nullptr;
   void (*settle)(const Settling&, std::span<const std::uint32_t> fresh,
                  const MetricSettings&) = nullptr;  ///< null: nothing
+  /// The radius that the metric alone gives, over the unscaled one; null: they are the same.
+  float (*scale)(const MetricSettings&) = nullptr;
 };
 
 /// A named combination. `estimator` is null for the path-traced reference, which caches nothing.
@@ -57,6 +60,8 @@ struct Method {
   /// Where what the estimator says is known already.
   Record make_record(const Vec3& position, const Vec3& normal, const Jet<Rgb>& jet, const View& view) const;
   void settle(const Settling& settling, std::span<const std::uint32_t> fresh) const;
+  /// What `predicted_error` wants to know of records made by this method.
+  ErrorModel error_model() const;
 };
 
 std::span<const Estimator> estimators();

@@ -12,18 +12,31 @@ namespace {
 /// mean plane holds both points, so neighbours serve each other.
 constexpr float in_front = 0.05f;
 
+bool faces_away(const Record& record, const Vec3& normal) { return dot(normal, record.normal) <= 0; }
+
+bool lies_in_front(const Record& record, const Vec3& q, const Vec3& normal) {
+  return dot(q, normal + record.normal) < -2 * in_front * record.footprint.radius;
+}
+
 }  // namespace
 
 float footprint_error(const Record& record, const Vec3& position, const Vec3& normal) {
   const Vec3 q = position - record.position;
   const float distance = quadratic_form(record.footprint.shape, q);
   if (!(distance < 1)) return infinity;
-  if (dot(normal, record.normal) <= 0) return infinity;
-  if (dot(q, normal + record.normal) < -2 * in_front * record.footprint.radius) return infinity;
+  if (faces_away(record, normal) || lies_in_front(record, q, normal)) return infinity;
   // Of the difference, not of 1 - cosine, which rounding keeps from being 0 where the normals are equal.
   const float away = std::sqrt(distance),
               turned = record.footprint.normal_scale * std::sqrt(length_squared(normal - record.normal) / 2);
   return record.footprint.falloff == Falloff::tabellion ? std::max(away, turned) : away + turned;
+}
+
+Standing standing(const Record& record, const Vec3& position, const Vec3& normal) {
+  const Vec3 q = position - record.position;
+  if (!(quadratic_form(record.footprint.shape, q) < 1)) return Standing::beyond_rim;
+  if (faces_away(record, normal)) return Standing::facing_away;
+  if (lies_in_front(record, q, normal)) return Standing::in_front;
+  return footprint_error(record, position, normal) < 1 ? Standing::serves : Standing::turned;
 }
 
 float falloff_weight(Falloff falloff, float error) {
@@ -46,10 +59,8 @@ void RecordCache::reindex() {
 std::optional<Rgb> RecordCache::interpolate(const Query& query) const {
   Rgb sum;
   float weights = 0;
-  visit_near(query.position, [&](const Record& record) {
-    const float error = footprint_error(record, query.position, query.normal);
-    if (!(error < 1)) return;
-    const float weight = falloff_weight(record.footprint.falloff, error);
+  visit_serving(query, [&](std::uint32_t id, float, float weight) {
+    const Record& record = records_[id];
     sum += record.extrapolate(query.position - record.position, query.facing) * weight;
     weights += weight;
   });

@@ -37,6 +37,11 @@ class RecordCache {
   /// Does any record serve?
   bool covers(const Query& query) const;
 
+  /// Calls visit(id, error, weight) for all records that serve the query, in the order in which `interpolate` adds
+  /// them up: `error` as the footprint measures it, `weight` not yet over the sum of all.
+  template <class Visit>
+  void visit_serving(const Query& query, Visit&& visit) const;
+
   /// Calls visit(record) for all records whose footprint may reach `p`, and for some others near it.
   template <class Visit>
   void visit_near(const Vec3& p, Visit&& visit) const {
@@ -54,7 +59,27 @@ class RecordCache {
 /// record lies in front of the query [Ward, Rubinstein, Clear 1988] or on the other side of the surface.
 float footprint_error(const Record& record, const Vec3& position, const Vec3& normal);
 
+/// Why a record serves a place or not: the first of these that holds.
+enum class Standing : std::uint8_t {
+  beyond_rim,   ///< the place lies outside the footprint
+  facing_away,  ///< the record lies on the other side of the surface, or on one that faces away
+  in_front,     ///< the record lies in front of the place
+  turned,       ///< the normals differ too much at this distance
+  serves,
+};
+Standing standing(const Record& record, const Vec3& position, const Vec3& normal);
+
 /// The weight for an error in [0, 1).
 float falloff_weight(Falloff falloff, float error);
+
+template <class Visit>
+void RecordCache::visit_serving(const Query& query, Visit&& visit) const {
+  octree_.any(query.position, [&](std::uint32_t id) {
+    const Record& record = records_[id];
+    const float error = footprint_error(record, query.position, query.normal);
+    if (error < 1) visit(id, error, falloff_weight(record.footprint.falloff, error));
+    return false;
+  });
+}
 
 }  // namespace isophote

@@ -33,6 +33,13 @@ struct Sym3T {
 using Sym3 = Sym3T<float>;
 using Sym3d = Sym3T<double>;
 
+/// A v
+template <class T>
+constexpr Vec3T<T> operator*(const Sym3T<T>& a, const Vec3T<T>& v) {
+  return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
+          a.xz * v.x + a.yz * v.y + a.zz * v.z};
+}
+
 /// v . (A v)
 template <class T>
 constexpr T quadratic_form(const Sym3T<T>& a, const Vec3T<T>& v) {

@@ -33,6 +33,20 @@ Rgb false_colour(float t) {
   return {std::clamp(c.r, 0.0f, 1.0f), std::clamp(c.g, 0.0f, 1.0f), std::clamp(c.b, 0.0f, 1.0f)};
 }
 
+Rgb ColourScale::operator()(float value) const {
+  if (!logarithmic) return false_colour((value - low) / (high - low));
+  return false_colour(value > low ? std::log(value / low) / std::log(high / low) : 0);
+}
+
+ColourScale colour_scale(std::vector<float> values, bool logarithmic) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](float v) { return !(v > 0); }), values.end());
+  if (values.empty()) return {1, 2, logarithmic};
+  std::sort(values.begin(), values.end());
+  const std::size_t outside = values.size() / 50;
+  const float low = logarithmic ? values[outside] : 0;
+  return {low, std::max(values[values.size() - 1 - outside], low * 1.001f), logarithmic};
+}
+
 RgbImage error_picture(const RgbImage& image, const RgbImage& reference, float range) {
   ISOPHOTE_CHECK(image.width, ==, reference.width);
   ISOPHOTE_CHECK(image.height, ==, reference.height);

@@ -117,6 +117,21 @@ class FinalPass {
 
 RenderReport render(const Job& job, const RecordCache* cache, Film& film) { return FinalPass(job, cache, film).run(); }
 
+Radiance pixel_radiance(const Job& job, const RecordCache& cache, int x, int y) {
+  Radiance sum;
+  RayCounts counts;
+  for (int s = 0; s < job.samples; ++s) {
+    Sampler stream = job.sampler(x, y, s);
+    const Ray ray = job.camera_ray(x, y, stream);
+    const FirstPoint seen = first_point(job.world, ray, true, stream, counts.camera);
+    const PixelSample sample = shade_sample(job, &cache, ray, seen, Uncovered::trace, stream, counts).sample;
+    sum.direct += sample.direct;
+    sum.indirect += sample.indirect;
+  }
+  const auto samples = static_cast<float>(job.samples);
+  return {sum.direct / samples, sum.indirect / samples};
+}
+
 RgbImage coarse_picture(const Job& job, const RecordCache& cache, int stride) {
   RgbImage picture(job.width, job.height);
   const auto rows = static_cast<std::size_t>((job.height + stride - 1) / stride);

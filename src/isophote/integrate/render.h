@@ -20,6 +20,13 @@ struct RenderReport {
 /// sample get one, of what is covered.
 RenderReport render(const Job& job, const RecordCache* cache, Film& film);
 
+/// What a pixel shows, W/m2/sr, split as the layers of the picture are.
+struct Radiance {
+  Rgb direct, indirect;
+};
+/// The mean of all samples of one pixel, as `render` makes them.
+Radiance pixel_radiance(const Job& job, const RecordCache& cache, int x, int y);
+
 /// The picture as far as `cache` covers it, one sample in every stride x stride pixels: a preview while the cache is
 /// built.
 RgbImage coarse_picture(const Job& job, const RecordCache& cache, int stride);

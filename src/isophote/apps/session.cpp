@@ -1,0 +1,141 @@
+#include "isophote/apps/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "isophote/cache/record_file.h"
+#include "isophote/core/error.h"
+#include "isophote/integrate/film.h"
+#include "isophote/integrate/scene_hash.h"
+#include "isophote/integrate/solve_records.h"
+#include "isophote/load/memory_budget.h"
+
+namespace isophote::app {
+namespace {
+
+const Option& option_named(const std::string& name) {
+  const auto options = app::options();
+  return *std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.name == name; });
+}
+
+/// Refuses pictures that do not fit in memory: the film, and twice as much again for the layers made of it and their
+/// encoding.
+void check_size(int width, int height) {
+  const std::uint64_t bytes =
+      3 * sizeof(PixelSample) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  MemoryBudget(physical_memory()).take(bytes, fmt::format("a picture of {} x {} pixels", width, height));
+}
+
+/// What shapes records, for the record file. The view and the seed do not matter: records of another view or seed serve
+/// as well.
+std::string record_settings(const Job& job) {
+  const Method& m = job.method;
+  const RadiusBounds& b = m.settings.bounds;
+  return fmt::format(
+      "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmax-view={}\nmin-radius={}\n"
+      "max-radius={}\nbound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}\n"
+      "secondary={}\nmax-depth={}\n",
+      m.estimator->name, m.metric->name, m.settings.a, b.min_pixels, b.max_pixels, b.min_view, b.max_view, b.min_length,
+      b.max_length, b.gradient, b.neighbours, m.settings.aspect, m.order,
+      m.settings.falloff ? static_cast<int>(*m.settings.falloff) : -1,
+      m.adaptive ? "auto" : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal), m.secondary,
+      job.world.max_depth);
+}
+
+}  // namespace
+
+RenderSettings merged_settings(const SceneRequest& request, const std::vector<Setting>& from_file) {
+  RenderSettings settings;
+  for (const Setting& s : from_file) apply_setting(settings, s.table, s.key, s.value, s.place);
+  for (const auto& [name, value] : request.settings) {
+    try {
+      option_named(name).apply(settings, value);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("--{}: {}", name, error.what()));
+    }
+  }
+  return settings;
+}
+
+void check_method(const SceneRequest& request, const RenderSettings& settings, const Method& method) {
+  std::string deciding;
+  for (const auto& [name, value] : request.settings) {
+    if (!method.caches() && option_named(name).caches)
+      throw UsageError(fmt::format("method 'path' caches nothing: it takes no --{}", name));
+    if (name != "error" && name != "a" && name != "records") continue;
+    if (!deciding.empty())
+      throw UsageError(fmt::format("--{} and --{} both decide how many records there are: give one", deciding, name));
+    deciding = name;
+  }
+  if (settings.records && (settings.lazy || !request.load_cache.empty()))
+    throw UsageError("--records builds caches in rounds and from nothing: it takes no --order lazy or --load-cache");
+}
+
+Session::Session(const SceneRequest& request)
+    : request_(request), threads_(request.threads), display_(request.progress), start_(Clock::now()) {}
+
+void Session::read() {
+  display_.show("load", 0);
+  loaded_ = load_scene(request_.scene, [this](const std::string& line) {
+    display_.clear();
+    fmt::print(stderr, "isophote: warning: {}\n", line);
+  });
+  settings_ = merged_settings(request_, loaded_.settings);
+  method_ = chosen_method(settings_);
+  check_method(request_, settings_, method_);
+}
+
+void Session::prepare() {
+  const Camera camera = chosen_camera(settings_, loaded_.scene);
+  rays_.emplace(loaded_.scene);
+  try {
+    emitters_.emplace(loaded_.scene);
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("{}: {}", request_.scene, error.what()));
+  }
+  job_.emplace(Job{
+      World{loaded_.scene, *rays_, *emitters_, settings_.max_depth.value_or(std::numeric_limits<int>::max())}, camera});
+  Job& job = *job_;
+  job.height = settings_.height.value_or(512);
+  job.width = settings_.width.value_or(
+      std::clamp(static_cast<int>(std::lround(512 * (camera.aspect > 0 ? camera.aspect : 1))), 1, 32768));
+  check_size(job.width, job.height);
+  job.samples = settings_.samples;
+  job.seed = settings_.seed;
+  job.method = method_;
+  const int rays = settings_.rays.value_or(0);
+  job.strata = Strata::about(rays > 0 ? rays : default_rays);
+  job.parallel = threads_.parallel_for();
+  job.progress.report = [this](std::string_view phase, double done) { display_.show(phase, done); };
+  job.progress.cancelled = Interruptible::interrupted;
+}
+
+RecordCache Session::starting_cache() const {
+  RecordCache cache = empty_cache(*job_);
+  if (request_.load_cache.empty()) return cache;
+  const RecordFile file = read_records(request_.load_cache);
+  require_match(request_.load_cache, file, scene_hash(loaded_.scene), record_settings(*job_));
+  for (const Record& record : file.records) cache.insert(record);
+  return cache;
+}
+
+BuildReport Session::build(RecordCache& cache) {
+  BuildReport report;
+  if (settings_.records) {
+    Solved solved = build_with_records(*job_, static_cast<std::size_t>(*settings_.records));
+    cache = std::move(solved.cache);
+    report = std::move(solved.report);
+  } else {
+    report = build_in_rounds(*job_, cache);
+  }
+  job_->pilot = report.pilot;
+  return report;
+}
+
+void Session::save(const RecordCache& cache, const std::string& path) const {
+  const auto records = cache.records();
+  write_records(path, {scene_hash(loaded_.scene), record_settings(*job_), {records.begin(), records.end()}});
+}
+
+}  // namespace isophote::app

@@ -1,0 +1,83 @@
+#include "isophote/integrate/marked_picture.h"
+
+#include <cmath>
+
+#include "isophote/integrate/make_record.h"
+#include "isophote/integrate/shade.h"
+
+namespace isophote {
+namespace {
+
+constexpr int subpixels = 2;             // along each axis: thin lines want smooth edges
+constexpr float mean_luminance = 0.15f;  // of what is not black, beside marks of full brightness
+
+/// A pixel's samples: those that show irradiance, and those that are marked.
+struct Mixture {
+  Rgb irradiance, marks;
+  int lit = 0, marked = 0;
+};
+
+struct Look {
+  FirstPoint seen;
+  std::optional<Sight> sight;
+};
+
+Look look(const Job& job, const Window& window, float x, float y, RayCounts& counts) {
+  Sampler stream = job.sampler(static_cast<int>(x), static_cast<int>(y), 0);
+  Look view{first_point(job.world, job.camera.ray(x, y, job.width, job.height), true, stream, counts.camera), {}};
+  if (const auto place = place_of(job, view.seen))
+    view.sight = {*place, view.seen.direction, place->pixel / window.zoom};
+  return view;
+}
+
+}  // namespace
+
+OnScreen on_screen(const Record& record, const Sight& sight) {
+  const Vec3 q = sight.place.position - record.position, &d = sight.direction, &n = sight.place.geometric_normal;
+  const float t = std::sqrt(quadratic_form(record.footprint.shape, q));
+  const float from_centre = length(q - d * dot(q, d)) / sight.pixel;
+  if (!(t > 0)) return {infinity, from_centre};
+  // A step s across d leads along the surface to s - d (s . n) / (d . n): t changes by s . (g - n (g . d) / (d . n)).
+  const Vec3 g = record.footprint.shape * q / t;
+  const float slope = length(g - n * (dot(g, d) / dot(d, n))) * sight.pixel;
+  return {slope > 0 ? (1 - t) / slope : infinity, from_centre};
+}
+
+RgbImage marked_picture(const Job& job, const RecordCache& cache, const Window& window, const Mark& mark) {
+  std::vector<Mixture> mixtures(static_cast<std::size_t>(job.width) * job.height);
+  for_each(job.parallel, static_cast<std::size_t>(job.height), 1, [&](std::size_t row, RayCounts& counts) {
+    for (int column = 0; column < job.width; ++column) {
+      Mixture& mixture = mixtures[row * job.width + column];
+      for (int s = 0; s < subpixels * subpixels; ++s) {
+        const float u = static_cast<float>(column) + (static_cast<float>(s % subpixels) + 0.5f) / subpixels;
+        const float v = static_cast<float>(row) + (static_cast<float>(s / subpixels) + 0.5f) / subpixels;
+        const float x = window.x + (u - 0.5f * static_cast<float>(job.width)) / window.zoom;
+        const float y = window.y + (v - 0.5f * static_cast<float>(job.height)) / window.zoom;
+        const Look view = look(job, window, x, y, counts);
+        if (const auto colour = mark(x, y, view.sight)) {
+          mixture.marks += *colour, ++mixture.marked;
+        } else if (view.sight) {
+          if (const auto irradiance = cache.interpolate(query_at(*view.seen.point)))
+            mixture.irradiance += *irradiance, ++mixture.lit;
+        }
+      }
+    }
+  });
+  double sum = 0, count = 1e-30;
+  for (const Mixture& m : mixtures)
+    if (m.lit > 0) sum += luminance(m.irradiance) / static_cast<float>(m.lit), ++count;
+  const auto dim = static_cast<float>(sum > 0 ? mean_luminance * count / sum : 0);
+  RgbImage picture(job.width, job.height);
+  constexpr float samples = subpixels * subpixels;
+  for (std::size_t i = 0; i < mixtures.size(); ++i) {
+    const Mixture& m = mixtures[i];
+    picture.pixels[i] = m.marks / samples;
+    // Samples that show nothing leave the others' irradiance as it is, but at the edge of what there is to see.
+    if (m.lit > 0)
+      picture.pixels[i] +=
+          m.irradiance * (dim * (samples - static_cast<float>(m.marked)) / samples / static_cast<float>(m.lit));
+  }
+  return picture;
+}
+
+}  // namespace isophote
