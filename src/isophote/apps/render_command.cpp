@@ -34,11 +34,11 @@ std::string record_settings(const Job& job) {
   return fmt::format(
       "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmin-radius={}\nmax-radius={}\n"
       "bound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}x{}\nsecondary={}\n"
-      "max-depth={}\n",
+      "leak-test={}\nmax-depth={}\n",
       job.method.estimator->name, job.method.metric->name, job.method.settings.a, b.min_pixels, b.max_pixels,
       b.min_view, b.min_length, b.max_length, b.gradient, b.neighbours, job.method.settings.aspect, job.method.order,
       job.method.settings.falloff ? static_cast<int>(*job.method.settings.falloff) : -1, job.strata.polar,
-      job.strata.azimuthal, job.method.secondary, job.world.max_depth);
+      job.strata.azimuthal, job.method.secondary, job.method.leak_test, job.world.max_depth);
 }
 
 /// One run of `isophote render`, step by step.
@@ -208,7 +208,8 @@ class Rendering {
       s.extrapolate = std::min(job.method.order, job.method.estimator->order);
       s.bounds = describe(job.method.settings.bounds);
     }
-    s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
+    s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.leak_test = job.method.leak_test,
+    s.strata = job.strata;
     // Where a threshold or a number of records was given, no error was asked for.
     if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
     s.seed = settings_.seed, s.threads = threads_.count();

@@ -120,7 +120,7 @@ const Method method_table[] = {
      {.bounds = swept_preset, .aspect = 2},
      2},
     {"uniform", "", "one radius everywhere: the control", &swept, &one_radius, {}, 1},
-    {"cached", "", "the best combination there is here", &exact, &bounded, {.bounds = cached_preset}, 1, true},
+    {"cached", "", "the best combination there is here", &exact, &bounded, {.bounds = cached_preset}, 1, true, true},
 };
 
 template <class Table>
@@ -140,6 +140,7 @@ Record Method::make_record(const HemisphereGather& gather, const View& view) con
   record.position = gather.position;
   record.normal = gather.frame.n;
   record.jet = estimator->estimate(gather);
+  if (!leak_test) record.jet.distances.obstacles = {};
   record.footprint = metric->measure(record.jet, view, settings);
   if (settings.falloff) record.footprint.falloff = *settings.falloff;
   record.footprint.order = static_cast<std::uint8_t>(std::min(order, estimator->order));

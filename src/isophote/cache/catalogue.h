@@ -46,6 +46,7 @@ struct Method {
   MetricSettings settings{};
   int order = 0;           ///< of extrapolation, at most what the estimator gives
   bool secondary = false;  ///< gather rays read the cache where they hit
+  bool leak_test = false;  ///< a record keeps what it saw near: see `serving_error`
 
   bool caches() const { return estimator != nullptr; }
   Record make_record(const HemisphereGather& gather, const View& view) const;

@@ -24,6 +24,13 @@ float footprint_error(const Record& record, const Vec3& position, const Vec3& no
   return std::sqrt(distance) + record.footprint.normal_scale * std::sqrt(length_squared(normal - record.normal) / 2);
 }
 
+float serving_error(const Record& record, const Query& query, OpenTest open) {
+  const float error = footprint_error(record, query.position, query.normal);
+  if (!(error < 1)) return error;
+  const bool unsure = record.jet.distances.obstacles.before(query.position - record.position, record.normal);
+  return unsure && !open(record, query) ? infinity : error;
+}
+
 float falloff_weight(Falloff falloff, float error) {
   return falloff == Falloff::tent ? 1 - error : 1 / std::max(error, 1e-6f) - 1;
 }
@@ -41,11 +48,11 @@ void RecordCache::reindex() {
     octree_.insert(id, records_[id].position, records_[id].footprint.radius);
 }
 
-std::optional<Rgb> RecordCache::interpolate(const Query& query) const {
+std::optional<Rgb> RecordCache::interpolate(const Query& query, OpenTest open) const {
   Rgb sum;
   float weights = 0;
   visit_near(query.position, [&](const Record& record) {
-    const float error = footprint_error(record, query.position, query.normal);
+    const float error = serving_error(record, query, open);
     if (!(error < 1)) return;
     const float weight = falloff_weight(record.footprint.falloff, error);
     sum += record.extrapolate(query.position - record.position, query.facing) * weight;
@@ -55,9 +62,8 @@ std::optional<Rgb> RecordCache::interpolate(const Query& query) const {
   return sum / weights;
 }
 
-bool RecordCache::covers(const Query& query) const {
-  return octree_.any(query.position,
-                     [&](std::uint32_t id) { return footprint_error(records_[id], query.position, query.normal) < 1; });
+bool RecordCache::covers(const Query& query, OpenTest open) const {
+  return octree_.any(query.position, [&](std::uint32_t id) { return serving_error(records_[id], query, open) < 1; });
 }
 
 }  // namespace isophote

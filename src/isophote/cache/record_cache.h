@@ -17,6 +17,25 @@ struct Query {
   Vec3 facing;
 };
 
+/// The host's test for what stands between a record and a query: refers to a callable bool(const Record&, const
+/// Query&), true where the way between them is free, that outlives the lookup. Asked only where the record saw
+/// something that near. An empty one takes every way to be free.
+class OpenTest {
+ public:
+  OpenTest() = default;
+  template <class Test>
+  OpenTest(const Test& test)
+      : test_(&test), call_([](const void* t, const Record& r, const Query& q) -> bool {
+          return (*static_cast<const Test*>(t))(r, q);
+        }) {}
+
+  bool operator()(const Record& record, const Query& query) const { return !call_ || call_(test_, record, query); }
+
+ private:
+  const void* test_ = nullptr;
+  bool (*call_)(const void*, const Record&, const Query&) = nullptr;
+};
+
 /// Records and the index that finds them. Reading is safe from any number of threads while nobody writes.
 class RecordCache {
  public:
@@ -33,9 +52,9 @@ class RecordCache {
 
   /// Irradiance at the query, interpolated among the records that serve it: sum of weight times extrapolated value over
   /// sum of weights [Ward, Heckbert 1992]. Nothing where no record serves.
-  std::optional<Rgb> interpolate(const Query& query) const;
+  std::optional<Rgb> interpolate(const Query& query, OpenTest open = {}) const;
   /// Does any record serve?
-  bool covers(const Query& query) const;
+  bool covers(const Query& query, OpenTest open = {}) const;
 
   /// Calls visit(record) for all records whose footprint may reach `p`, and for some others near it.
   template <class Visit>
@@ -53,6 +72,9 @@ class RecordCache {
 /// The error of using `record` at (position, normal), as its footprint measures it: under 1 inside. Infinite where the
 /// record lies in front of the query [Ward, Rubinstein, Clear 1988] or on the other side of the surface.
 float footprint_error(const Record& record, const Vec3& position, const Vec3& normal);
+
+/// The same, and infinite where the record saw something between it and the query, and `open` finds it there.
+float serving_error(const Record& record, const Query& query, OpenTest open);
 
 /// The weight for an error in [0, 1).
 float falloff_weight(Falloff falloff, float error);

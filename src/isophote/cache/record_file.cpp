@@ -18,7 +18,7 @@ namespace isophote {
 namespace {
 
 constexpr char magic[8] = {'I', 'S', 'O', 'P', 'H', 'R', 'E', 'C'};
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 /// Puts numbers into bytes, least significant first.
 struct Packer {
@@ -28,6 +28,7 @@ struct Packer {
     for (int i = 0; i < size; ++i) bytes.push_back(static_cast<char>(v >> (8 * i)));
   }
   void operator()(float& v) { integer(std::bit_cast<std::uint32_t>(v), 4); }
+  void operator()(std::uint16_t& v) { integer(v, 2); }
   void operator()(std::uint8_t& v) { integer(v, 1); }
 };
 
@@ -41,6 +42,7 @@ struct Unpacker {
     return v;
   }
   void operator()(float& v) { v = std::bit_cast<float>(static_cast<std::uint32_t>(integer(4))); }
+  void operator()(std::uint16_t& v) { v = static_cast<std::uint16_t>(integer(2)); }
   void operator()(std::uint8_t& v) { v = static_cast<std::uint8_t>(integer(1)); }
 };
 
@@ -62,6 +64,7 @@ void transfer(Stream& io, Record& r) {
   rgb(r.jet.value), gradient(r.jet.translational), gradient(r.jet.rotational);
   form(r.jet.hessian);
   io(r.jet.distances.harmonic_mean);
+  for (std::uint16_t& sector : r.jet.distances.obstacles.nearest) io(sector);
 }
 
 std::size_t record_size() {
@@ -106,6 +109,9 @@ bool bounded(const Jet<Rgb>& jet, float radius) {
         within(jet.value[c], 0, most) && size(jet.translational) * radius <= most && size(jet.rotational) <= most;
     if (!fits) return false;
   }
+  const Obstacles& obstacles = jet.distances.obstacles;
+  for (int i = 0; i < Obstacles::sectors; ++i)
+    if (!within(obstacles.distance(i), 0, infinity)) return false;
   return within(jet.distances.harmonic_mean, 0, infinity);
 }
 

@@ -74,6 +74,7 @@ Jet<Rgb> irradiance(const HemisphereGather& gather) {
   Jet<Rgb> jet;
   jet.value = Rgb(sum * (half_turn / n));
   jet.distances.harmonic_mean = static_cast<float>(n / inverse_distances);
+  jet.distances.obstacles = obstacles(gather);
   return jet;
 }
 

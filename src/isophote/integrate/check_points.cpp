@@ -5,6 +5,7 @@
 
 #include "isophote/integrate/build.h"
 #include "isophote/integrate/gather.h"
+#include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {
@@ -38,8 +39,7 @@ CheckPoint check_point(const Job& job, const RecordCache& cache, std::size_t ind
   const FirstPoint seen = first_point(job.world, ray, true, stream, rays.camera);
   CheckPoint result;
   if (const std::optional<Place> place = place_of(job, seen)) {
-    // Without the normal map: the gather's hemisphere is about the interpolated normal.
-    if (const auto cached = cache.interpolate({place->position, place->normal, place->normal})) {
+    if (const auto cached = cache.interpolate(query_at(*place), LeakTest{job.world, rays})) {
       const double a = half_reference(job, *place, hash(key, index, 0), rays);
       const double b = half_reference(job, *place, hash(key, index, 1), rays);
       // Half the difference of two is as wide as their mean's error, whatever strata and paths have in common.

@@ -5,6 +5,7 @@
 
 #include "isophote/image/false_colour.h"
 #include "isophote/integrate/build.h"
+#include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {
@@ -57,7 +58,8 @@ RgbImage record_picture(const Job& job, const RecordCache& cache) {
       if (!place) continue;
       const auto line = mark(cache, *place, scale);
       marked[i] = line.has_value();
-      picture.pixels[i] = line ? *line : cache.interpolate(query_at(*seen.point)).value_or(Rgb{});
+      picture.pixels[i] =
+          line ? *line : cache.interpolate(query_at(*seen.point), LeakTest{job.world, counts}).value_or(Rgb{});
     }
   });
   double sum = 0, count = 1e-30;
