@@ -89,7 +89,7 @@ class Statistics(ProgramTest):
             self.assertGreater(stats["records"], 0)
             self.assertGreaterEqual(stats["uncovered"], 0)
             rays = stats["rays"]
-            self.assertEqual(rays["total"], sum(rays[kind] for kind in ("camera", "shadow", "gather", "path", "check")))
+            self.assertEqual(rays["total"], sum(rays[kind] for kind in ("camera", "shadow", "gather", "path", "check", "verification")))
             for kind in ("camera", "shadow", "gather", "check"):
                 self.assertGreater(rays[kind], 0, kind)
             for clock in ("cpu_seconds", "wall_seconds"):
