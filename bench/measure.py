@@ -13,11 +13,12 @@ PROGRAM = ROOT / "build" / "release" / "isophote"
 class View:
     """A scene at a size, with its path-traced reference in two halves."""
 
-    def __init__(self, name, scene, size, reference_samples):
+    def __init__(self, name, scene, size, reference_samples, camera=None):
         self.name, self.scene, self.size, self.reference_samples = name, ROOT / "scenes" / scene, size, reference_samples
+        self.camera = camera  # its name; none: the scene's first
 
     def arguments(self):
-        return [str(self.scene), "--size", self.size]
+        return [str(self.scene), "--size", self.size, *(("--camera", self.camera) if self.camera else ())]
 
     def references(self):
         # References outlive builds: delete build/bench after a change to the path tracer.

@@ -55,6 +55,34 @@ def order():
             table(["scene", "method", "samples", "rounds", "lazy", "surplus %"], rows))
 
 
+def leaks():
+    """What the leak test costs, and what is left of a leak where one cache serves both sides of a thin wall."""
+    costs, biases = [], []
+    for view in (CORNELL, ATRIUM, SHADOW):
+        growth = []
+        for i in range(REPEATS):
+            order = ("on", "off") if i % 2 else ("off", "on")
+            stats = {test: render(view, "--leak-test", test, "--no-check") for test in order}
+            growth.append(cost(stats["on"]) / cost(stats["off"]) - 1)
+        on, off = stats["on"], stats["off"]
+        costs.append([view.name, f"{100 * median(growth):+.1f}", f"{100 * min(growth):+.1f} to {100 * max(growth):+.1f}", off["records"],
+                      on["records"], f"{100 * on['rays']['verification'] / on['rays']['total']:.1f}"])
+    bright, dark = (View(f"thin-wall-{side}", "thin-wall.glb", "256x192", 256, side) for side in ("bright", "dark"))
+    records = BUILD / "bright.records"
+    for test in ("off", "on"):
+        flags = ("--leak-test", test, "--no-check")
+        render(bright, *flags, "--save-cache", records)
+        stats, errors = measured(dark, *flags, "--load-cache", records)
+        e = errors["irradiance"]
+        biases.append([test, stats["records"], f"{100 * e['bias']:+.1f}", percent(e["relative_rmse"]), percent(e["block_error"])])
+    records.unlink()
+    return (f"## Leaks\n\nCPU seconds of build and final pass with the leak test over those without, medians and ranges of {REPEATS} pairs, "
+            "`cached` at its defaults, and the rays it casts as a share of all:\n\n" +
+            table(["scene", "growth %", "range %", "records without", "records with", "rays %"], costs) +
+            "\n\nThe dark room of `scenes/thin-wall.glb`, 2 cm from one lit twenty times as brightly, rendered with the records of both:\n\n" +
+            table(["leak test", "records", "bias %", "RMSE %", "block %"], biases))
+
+
 def scaling():
     """Threads and pixels."""
     rows = []

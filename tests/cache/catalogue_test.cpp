@@ -102,6 +102,8 @@ TEST(Catalogue, MakesAndSettlesRecordsAsItsPartsSay) {
     EXPECT_EQ(records[0].position, gather.position);
     EXPECT_EQ(records[0].normal, gather.frame.n);
     EXPECT_EQ(records[0].footprint.order, std::min(method.order, method.estimator->order));
+    EXPECT_EQ(method.leak_test, method.name == "cached");
+    EXPECT_EQ(records[0].jet.distances.obstacles == Obstacles{}, !method.leak_test);
     EXPECT_EQ(records[0].jet.translational == Gradient<Rgb>{}, method.estimator->order == 0);
     const float radius = records[0].footprint.radius;
     const std::uint32_t fresh = 0;

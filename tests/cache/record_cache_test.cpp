@@ -168,6 +168,57 @@ TEST(RecordCache, MappedNormalsActThroughTheRotationalGradient) {
   EXPECT_FALSE(cache.covers(query({1, 1, 0}, normalize(Vec3{0.3f, 0, 1}))));
 }
 
+/// Saw something `near` away all round.
+Record wary_record(const Vec3& position, float radius, float near, float value) {
+  Record record = round_record(position, up, radius);
+  record.jet.value = Rgb(value);
+  for (int i = 0; i < Obstacles::sectors; ++i) record.jet.distances.obstacles.meet(i, near);
+  return record;
+}
+
+TEST(OpenTest, IsAskedOfRecordsThatServeBeyondWhatTheySawAlone) {
+  const Record wary = wary_record({1, 1, 0}, 1, 0.5f, 1);
+  RecordCache cache(room);
+  cache.insert(wary);
+  cache.insert(round_record({1, 1.5f, 0}, up, 1));  // saw nothing near
+  int asked = 0;
+  const auto open = [&](const Record& record, const Query& q) {
+    EXPECT_EQ(record.position, wary.position);
+    EXPECT_GT(length(q.position - record.position), 0.39f);
+    ++asked;
+    return true;
+  };
+  RandomPlaces random(53);
+  int expected = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Query q = query(random.point({0, 0, 0}, {2, 2, 0}), up);
+    const float distance = length(q.position - wary.position);
+    if (std::abs(distance - 0.4f) < 0.01f || std::abs(distance - 1) < 1e-5f) continue;
+    expected += distance > 0.4f && distance < 1;
+    EXPECT_EQ(cache.interpolate(q, open), cache.interpolate(q));
+    EXPECT_EQ(asked, expected);
+  }
+  EXPECT_GT(asked, 100);
+  EXPECT_EQ(serving_error(wary, query({1, 1.7f, 0}, up), {}), footprint_error(wary, {1, 1.7f, 0}, up));
+}
+
+TEST(OpenTest, WhatItRefusesDoesNotServe) {
+  RecordCache cache(room);
+  cache.insert(wary_record({1, 1, 0}, 1, 0.2f, 5));
+  const auto wall = [](const Record& record, const Query& q) {
+    return (record.position.x < 1.5f) == (q.position.x < 1.5f);
+  };
+  const Query before = query({1.4f, 1, 0}, up), behind = query({1.6f, 1, 0}, up);
+  EXPECT_TRUE(cache.covers(before, wall));
+  EXPECT_FALSE(cache.covers(behind, wall));
+  EXPECT_FALSE(cache.interpolate(behind, wall));
+  EXPECT_TRUE(cache.covers(behind));
+  cache.insert(wary_record({1.6f, 1, 0}, 1, 0, 3));  // its own place is always open
+  EXPECT_EQ(cache.interpolate(behind, wall), Rgb(3));
+  EXPECT_EQ(cache.interpolate(before, wall), Rgb(5));
+  EXPECT_EQ(serving_error(cache.records()[0], behind, wall), infinity);
+}
+
 // On a sphere, seen from outside as from inside, the plane between two points' normals holds both: records serve all
 // their neighbours. A test against the record's own tangent plane would refuse every one of them on the convex side.
 TEST(InFront, ConvexAndConcaveSurfacesShareRecords) {

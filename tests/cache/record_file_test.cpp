@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where things lie in a file: magic, version, scene, length of the settings, settings, count, records, checksum.
-constexpr std::size_t settings_at = 24, record_bytes = 190;
+constexpr std::size_t settings_at = 24, record_bytes = 222;
 
 class RecordFileTest : public testing::Test {
  protected:
@@ -50,6 +50,7 @@ class RecordFileTest : public testing::Test {
       r.jet.translational = random.gradient(3);
       r.jet.rotational = random.gradient(3);
       r.jet.distances.harmonic_mean = i % 2 ? infinity : 2;
+      for (int s = i % 3; s < Obstacles::sectors; s += 3) r.jet.distances.obstacles.meet(s, random.number(0, 9));
       file.records.push_back(r);
     }
     return file;
@@ -108,6 +109,7 @@ TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
       EXPECT_EQ(a.jet.translational, b.jet.translational);
       EXPECT_EQ(a.jet.rotational, b.jet.rotational);
       EXPECT_EQ(a.jet.distances.harmonic_mean, b.jet.distances.harmonic_mean);
+      EXPECT_EQ(a.jet.distances.obstacles, b.jet.distances.obstacles);
     }
     const std::string first = bytes();
     EXPECT_EQ(first.size(), settings_at + file.settings.size() + 16 + record_bytes * static_cast<std::size_t>(count));
@@ -119,12 +121,12 @@ TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
 TEST_F(RecordFileTest, IsLittleEndianAndVersioned) {
   write_records(path_, sample(1));
   const std::string content = bytes();
-  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\2\0\0\0", 12));
+  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\3\0\0\0", 12));
   EXPECT_EQ(static_cast<unsigned char>(content[12]), 0xef);  // the scene's lowest byte
   std::string later = content;
-  put_integer(later, 8, 3, 4);
+  put_integer(later, 8, 4, 4);
   put_signed(later);
-  EXPECT_EQ(refusal(), "has version 3, this program reads 2");
+  EXPECT_EQ(refusal(), "has version 4, this program reads 3");
 }
 
 TEST_F(RecordFileTest, EveryFlippedByteIsRefused) {
@@ -213,6 +215,8 @@ TEST_F(RecordFileTest, UnusableRecordsWithARightChecksumAreRefused) {
       [&](Record& r) { r.jet.rotational.x.r = nan; },
       [&](Record& r) { r.jet.rotational.z.b = 3e38f; },
       [&](Record& r) { r.jet.distances.harmonic_mean = nan; },
+      [&](Record& r) { r.jet.distances.obstacles.nearest[5] = 0x8001; },  // negative
+      [&](Record& r) { r.jet.distances.obstacles.nearest[15] = 0x7fc0; },
   };
   for (std::size_t i = 0; i < harms.size(); ++i) {
     RecordFile file = sample(3);

@@ -32,7 +32,7 @@ TEST(ServingRecords, AddUpToWhatIsInterpolatedBitForBit) {
     const Query query{random.point(room.lower, room.upper), normal, random.direction_near(normal, 0.2f)};
     Rgb sum;
     float weights = 0;
-    cache.visit_serving(query, [&](std::uint32_t id, float error, float weight) {
+    cache.visit_serving(query, {}, [&](std::uint32_t id, float error, float weight) {
       const Record& record = cache.records()[id];
       EXPECT_EQ(error, footprint_error(record, query.position, query.normal));
       EXPECT_EQ(weight, falloff_weight(record.footprint.falloff, error));
@@ -51,24 +51,33 @@ TEST(ServingRecords, AddUpToWhatIsInterpolatedBitForBit) {
 TEST(Standing, SaysServesWhereARecordDoes) {
   RandomPlaces random(32);
   const RecordCache cache = crowded(random);
-  int count[5] = {};
+  int count[6] = {};
   for (int i = 0; i < 30000; ++i) {
     const Record& record = cache.records()[static_cast<std::size_t>(i % 2000)];
     const Vec3 position = record.position + random.direction() * random.number(0, 0.5f), normal = random.direction();
-    const Standing s = standing(record, position, normal);
+    const Standing s = standing(record, {position, normal, normal}, {});
     EXPECT_EQ(s == Standing::serves, footprint_error(record, position, normal) < 1);
     ++count[static_cast<int>(s)];
   }
-  for (const int n : count) EXPECT_GT(n, 100);
+  for (const Standing s :
+       {Standing::beyond_rim, Standing::facing_away, Standing::in_front, Standing::turned, Standing::serves})
+    EXPECT_GT(count[static_cast<int>(s)], 100);
 }
 
 TEST(Standing, Reasons) {
-  const Record r = round_record({1, 1, 1}, up, 0.5f, 2);
-  EXPECT_EQ(standing(r, {1.2f, 1, 1}, up), Standing::serves);
-  EXPECT_EQ(standing(r, {1.6f, 1, 1}, up), Standing::beyond_rim);
-  EXPECT_EQ(standing(r, {1.2f, 1, 1}, -up), Standing::facing_away);
-  EXPECT_EQ(standing(r, {1.2f, 1, 0.8f}, up), Standing::in_front);
-  EXPECT_EQ(standing(r, {1.2f, 1, 1}, normalize(Vec3{1, 0, 1})), Standing::turned);
+  Record r = round_record({1, 1, 1}, up, 0.5f, 2);
+  const auto of = [&](const Vec3& position, const Vec3& normal, OpenTest open = {}) {
+    return standing(r, {position, normal, normal}, open);
+  };
+  EXPECT_EQ(of({1.2f, 1, 1}, up), Standing::serves);
+  EXPECT_EQ(of({1.6f, 1, 1}, up), Standing::beyond_rim);
+  EXPECT_EQ(of({1.2f, 1, 1}, -up), Standing::facing_away);
+  EXPECT_EQ(of({1.2f, 1, 0.8f}, up), Standing::in_front);
+  EXPECT_EQ(of({1.2f, 1, 1}, normalize(Vec3{1, 0, 1})), Standing::turned);
+  const auto closed = [](const Record&, const Query&) { return false; };
+  EXPECT_EQ(of({1.2f, 1, 1}, up, closed), Standing::serves);  // nothing near was seen: nobody asks
+  for (int sector = 0; sector < Obstacles::sectors; ++sector) r.jet.distances.obstacles.meet(sector, 0.1f);
+  EXPECT_EQ(of({1.2f, 1, 1}, up, closed), Standing::blocked);
 }
 
 }  // namespace

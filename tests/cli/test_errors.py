@@ -61,6 +61,7 @@ class BadUsage(ProgramTest):
             "--threads": ("-1", "x", "100000"),
             "--seed": ("-1", "x", "0.5"),
             "--secondary": ("maybe", ""),
+            "--leak-test": ("maybe", ""),
             "--order": ("random",),
             "--progress": ("loud",),
             "--exposure": ("bright",),
@@ -124,6 +125,7 @@ class BadInput(ProgramTest):
     def test_record_files(self):
         self.done("render", BOX, *quick("--save-cache", "records", "--stats", "s.json"))
         for flags, mention in ((("--error", "0.04"), "a="), (("--rays", "60"), "gather="), (("--secondary", "off"), "secondary="),
+                               (("--leak-test", "off"), "leak-test="),
                                (("--method", "ward1992"), "estimator="), (("--max-radius", "1"), "max-radius=")):
             with self.subTest(flags=flags):
                 self.refused(1, ("render", BOX, *quick(*flags, "--load-cache", "records", "-o", "o.exr")), "records: ", mention)

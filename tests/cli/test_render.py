@@ -94,7 +94,7 @@ class Statistics(ProgramTest):
             self.assertGreater(stats["records"], 0)
             self.assertGreaterEqual(stats["uncovered"], 0)
             rays = stats["rays"]
-            self.assertEqual(rays["total"], sum(rays[kind] for kind in ("camera", "shadow", "gather", "path", "check")))
+            self.assertEqual(rays["total"], sum(rays[kind] for kind in ("camera", "shadow", "gather", "path", "check", "verification")))
             for kind in ("camera", "shadow", "gather", "check"):
                 self.assertGreater(rays[kind], 0, kind)
             for clock in ("cpu_seconds", "wall_seconds"):
@@ -145,6 +145,12 @@ class Statistics(ProgramTest):
         self.assertAlmostEqual(parameters["a"], 0.5)
         self.assertEqual((parameters["secondary"], stats["uncovered"]), (False, 0))
 
+    def test_leak_test(self):
+        for flags, tested in (((), True), (("--leak-test", "off"), False), (("--method", "bounded"), False)):
+            with self.subTest(flags=flags):
+                stats = self.stats(BOX, *quick(*flags))
+                self.assertEqual(stats["parameters"]["leak_test"], tested)
+                self.assertEqual(stats["rays"]["verification"] > 0, tested)
 
     def test_how_records_are_used(self):
         for flags in (("--extrapolate", "0"), ("--aspect", "1"), ("--weight", "ward"), ()):

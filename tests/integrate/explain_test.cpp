@@ -201,7 +201,7 @@ TEST(RecordDensity, IntegratesToTheNumberOfRecords) {
   double sum = 0;
   for (float x = 0.01f; x < 10; x += 0.02f)
     for (float y = 0.01f; y < 10; y += 0.02f)
-      sum += 0.02 * 0.02 * record_density(cache, {{x, y, 0}, {0, 0, 1}, {0, 0, 1}});
+      sum += 0.02 * 0.02 * record_density(cache, {{x, y, 0}, {0, 0, 1}, {0, 0, 1}}, {});
   EXPECT_NEAR(sum, 40, 0.1);
 }
 

@@ -38,6 +38,7 @@ Json of(const ServingRecord& s) {
           {"value", of(s.value)},
           {"extrapolated", of(s.extrapolated)},
           {"predicted_error", s.predicted_error},
+          {"leak_tested", s.tested},
           {"reach", of(s.reach)}};
 }
 
@@ -51,6 +52,8 @@ const char* name_of(Standing why) {
       return "in_front";
     case Standing::turned:
       return "turned";
+    case Standing::blocked:
+      return "blocked";
     case Standing::serves:
       break;
   }

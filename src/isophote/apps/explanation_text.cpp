@@ -64,6 +64,7 @@ const Column<S> shares[] = {
     {"value W/m2", [](const S& s) { return triple(s.value); }},
     {"extrapolated W/m2", [](const S& s) { return triple(s.extrapolated); }},
     {"predicted error", [](const S& s) { return percent(s.predicted_error); }},
+    {"leak test", [](const S& s) { return std::string(s.tested ? "ray: free" : "not needed"); }},
 };
 const Column<S> reaches[] = {
     {"position m", [](const S& s) { return triple(s.position); }},
@@ -87,6 +88,8 @@ std::string reason(const M& miss) {
       return "it lies in front";
     case Standing::turned:
       return "its normal differs too much";
+    case Standing::blocked:
+      return "something stands between";
     case Standing::serves:
       break;
   }

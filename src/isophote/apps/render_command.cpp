@@ -205,8 +205,8 @@ class Rendering {
       s.extrapolate = std::min(job.method.order, job.method.estimator->order);
       s.bounds = describe(job.method.settings.bounds);
     }
-    s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata,
-    s.adaptive = job.method.adaptive;
+    s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
+    s.adaptive = job.method.adaptive, s.leak_test = job.method.leak_test;
     // Where a threshold or a number of records was given, no error was asked for.
     if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
     s.seed = settings_.seed, s.threads = session_.threads();

@@ -83,6 +83,9 @@ constexpr Option table[] = {
      [](S& s, T t) { s.rays = t == "auto" ? 0 : number<int>(t, 12, 1 << 24); }},
     {"method", "secondary", "on|off", "do gather rays read the cache where they hit?",
      [](S& s, T t) { s.secondary = on_off(t); }, true},
+    {"method", "leak-test", "on|off",
+     "are records tested for what stands between them and a point? (method cached: on)",
+     [](S& s, T t) { s.leak_test = on_off(t); }, true},
     {"method", "max-depth", "N", "scattering events after the camera; 1 is direct light (default: no limit)",
      [](S& s, T t) { s.max_depth = number<int>(t, 1, 1 << 30); }},
     {"method", "order", "rounds|lazy", "how the cache is built (default: rounds)",
@@ -183,6 +186,7 @@ Method chosen_method(const RenderSettings& s) {
   method.secondary = s.secondary.value_or(method.secondary && !s.max_depth);
   if (method.secondary && s.max_depth) throw UsageError("--secondary on has no limit of depth: leave out --max-depth");
   if (s.rays) method.adaptive = *s.rays == 0;
+  method.leak_test = s.leak_test.value_or(method.leak_test);
   check_combination(method);
   return method;
 }

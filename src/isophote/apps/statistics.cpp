@@ -25,15 +25,15 @@ void Statistics::print() const {
                adaptive ? fmt::format("{:.0f} rays each in the mean", mean_rays)
                         : fmt::format("{} x {} rays each", strata.polar, strata.azimuthal),
                lazy ? "lazy" : "rounds", lazy ? "" : fmt::format(", {} rounds", rounds), uncovered, samples);
-    fmt::print("  threshold  a = {}, estimator {}, metric {}, secondary {}\n", a, estimator, metric,
-               secondary ? "on" : "off");
+    fmt::print("  threshold  a = {}, estimator {}, metric {}, secondary {}, leak test {}\n", a, estimator, metric,
+               secondary ? "on" : "off", leak_test ? "on" : "off");
     fmt::print("  bounds     {}\n", bounds);
   }
   fmt::print(
       "  CPU        load {:.2f} s, build {:.2f} s, final {:.2f} s, check {:.2f} s; wall {:.2f} s on {} threads\n",
       time.load.cpu, time.build.cpu, time.final.cpu, time.check.cpu, time.total.wall, threads);
-  fmt::print("  rays       {} camera, {} gather, {} path, {} shadow, {} check\n", rays.camera, rays.gather, rays.path,
-             rays.shadow, rays.check);
+  fmt::print("  rays       {} camera, {} gather, {} path, {} shadow, {} check, {} verification\n", rays.camera,
+             rays.gather, rays.path, rays.shadow, rays.check, rays.verification);
   fmt::print("  memory     {:.0f} MB at the peak\n", static_cast<double>(peak_memory()) / 1e6);
   if (error.points > 0)
     fmt::print(
@@ -72,6 +72,7 @@ void Statistics::write_json(const std::string& path) const {
               {"gather", rays.gather},
               {"path", rays.path},
               {"check", rays.check},
+              {"verification", rays.verification},
               {"total", rays.total()}}},
             {"cpu_seconds", phases(&Clock::cpu)},
             {"wall_seconds", phases(&Clock::wall)},
@@ -90,7 +91,8 @@ void Statistics::write_json(const std::string& path) const {
                           {"extrapolate", extrapolate},
                           {"gather", adaptive ? Json("auto") : Json{strata.polar, strata.azimuthal}},
                           {"order", lazy ? "lazy" : "rounds"},
-                          {"secondary", secondary}};
+                          {"secondary", secondary},
+                          {"leak_test", leak_test}};
   const Json asked = error_asked ? Json(*error_asked) : Json(nullptr);
   if (error.points > 0)
     json["error"] = {{"asked", asked},     {"mean", error.mean},   {"median", error.median}, {"p95", error.p95},

@@ -11,7 +11,7 @@ namespace isophote::app {
 /// What a render took and measured, for people and for scripts.
 struct Statistics {
   std::string method, estimator, metric, bounds;
-  bool lazy = false, secondary = false, adaptive = false, cancelled = false;
+  bool lazy = false, secondary = false, adaptive = false, leak_test = false, cancelled = false;
   std::optional<double> error_asked;
   float a = 0;
   int extrapolate = 0;

@@ -135,6 +135,7 @@ const Method method_table[] = {
      {.bounds = cached_preset, .aspect = 2},
      2,
      true,
+     true,
      true},
 };
 
@@ -159,6 +160,7 @@ Record Method::make_record(const Vec3& position, const Vec3& normal, const Jet<R
   record.position = position;
   record.normal = normal;
   record.jet = jet;
+  if (!leak_test) record.jet.distances.obstacles = {};
   record.footprint = metric->measure(record.jet, view, settings);
   if (settings.falloff) record.footprint.set_falloff(*settings.falloff);
   record.footprint.order = static_cast<std::uint8_t>(std::min(order, estimator->order));

@@ -50,6 +50,7 @@ struct Method {
   int order = 0;           ///< of extrapolation, at most what the estimator gives
   bool secondary = false;  ///< gather rays read the cache where they hit
   bool adaptive = false;   ///< each record gathers as many rays as its own noise needs
+  bool leak_test = false;  ///< a record keeps what it saw near: see `serving_error`
 
   bool caches() const { return estimator != nullptr; }
   /// The mean relative error that the threshold aims at; and the standard error of a record, relative to its value,

@@ -31,12 +31,20 @@ float footprint_error(const Record& record, const Vec3& position, const Vec3& no
   return record.footprint.falloff == Falloff::tabellion ? std::max(away, turned) : away + turned;
 }
 
-Standing standing(const Record& record, const Vec3& position, const Vec3& normal) {
-  const Vec3 q = position - record.position;
+Standing standing(const Record& record, const Query& query, OpenTest open) {
+  const Vec3 q = query.position - record.position;
   if (!(quadratic_form(record.footprint.shape, q) < 1)) return Standing::beyond_rim;
-  if (faces_away(record, normal)) return Standing::facing_away;
-  if (lies_in_front(record, q, normal)) return Standing::in_front;
-  return footprint_error(record, position, normal) < 1 ? Standing::serves : Standing::turned;
+  if (faces_away(record, query.normal)) return Standing::facing_away;
+  if (lies_in_front(record, q, query.normal)) return Standing::in_front;
+  if (!(footprint_error(record, query.position, query.normal) < 1)) return Standing::turned;
+  return serving_error(record, query, open) < 1 ? Standing::serves : Standing::blocked;
+}
+
+float serving_error(const Record& record, const Query& query, OpenTest open) {
+  const float error = footprint_error(record, query.position, query.normal);
+  if (!(error < 1)) return error;
+  const bool unsure = record.jet.distances.obstacles.before(query.position - record.position, record.normal);
+  return unsure && !open(record, query) ? infinity : error;
 }
 
 float falloff_weight(Falloff falloff, float error) {
@@ -56,10 +64,10 @@ void RecordCache::reindex() {
     octree_.insert(id, records_[id].position, records_[id].footprint.radius);
 }
 
-std::optional<Rgb> RecordCache::interpolate(const Query& query) const {
+std::optional<Rgb> RecordCache::interpolate(const Query& query, OpenTest open) const {
   Rgb sum;
   float weights = 0;
-  visit_serving(query, [&](std::uint32_t id, float, float weight) {
+  visit_serving(query, open, [&](std::uint32_t id, float, float weight) {
     const Record& record = records_[id];
     sum += record.extrapolate(query.position - record.position, query.facing) * weight;
     weights += weight;
@@ -68,9 +76,8 @@ std::optional<Rgb> RecordCache::interpolate(const Query& query) const {
   return sum / weights;
 }
 
-bool RecordCache::covers(const Query& query) const {
-  return octree_.any(query.position,
-                     [&](std::uint32_t id) { return footprint_error(records_[id], query.position, query.normal) < 1; });
+bool RecordCache::covers(const Query& query, OpenTest open) const {
+  return octree_.any(query.position, [&](std::uint32_t id) { return serving_error(records_[id], query, open) < 1; });
 }
 
 }  // namespace isophote

@@ -18,7 +18,7 @@ namespace isophote {
 namespace {
 
 constexpr char magic[8] = {'I', 'S', 'O', 'P', 'H', 'R', 'E', 'C'};
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 /// Puts numbers into bytes, least significant first.
 struct Packer {
@@ -28,6 +28,8 @@ struct Packer {
     for (int i = 0; i < size; ++i) bytes.push_back(static_cast<char>(v >> (8 * i)));
   }
   void operator()(float& v) { integer(std::bit_cast<std::uint32_t>(v), 4); }
+  void operator()(std::uint32_t& v) { integer(v, 4); }
+  void operator()(std::uint16_t& v) { integer(v, 2); }
   void operator()(std::uint8_t& v) { integer(v, 1); }
 };
 
@@ -41,6 +43,8 @@ struct Unpacker {
     return v;
   }
   void operator()(float& v) { v = std::bit_cast<float>(static_cast<std::uint32_t>(integer(4))); }
+  void operator()(std::uint32_t& v) { v = static_cast<std::uint32_t>(integer(4)); }
+  void operator()(std::uint16_t& v) { v = static_cast<std::uint16_t>(integer(2)); }
   void operator()(std::uint8_t& v) { v = static_cast<std::uint8_t>(integer(1)); }
 };
 
@@ -61,7 +65,9 @@ void transfer(Stream& io, Record& r) {
   io(r.gradient_scale), io(r.curvature_scale);
   rgb(r.jet.value), gradient(r.jet.translational), gradient(r.jet.rotational);
   form(r.jet.hessian);
+  io(r.jet.standard_error), io(r.jet.rays);
   io(r.jet.distances.harmonic_mean);
+  for (std::uint16_t& sector : r.jet.distances.obstacles.nearest) io(sector);
 }
 
 std::size_t record_size() {
@@ -106,6 +112,9 @@ bool bounded(const Jet<Rgb>& jet, float radius) {
         within(jet.value[c], 0, most) && size(jet.translational) * radius <= most && size(jet.rotational) <= most;
     if (!fits) return false;
   }
+  const Obstacles& obstacles = jet.distances.obstacles;
+  for (int i = 0; i < Obstacles::sectors; ++i)
+    if (!within(obstacles.distance(i), 0, infinity)) return false;
   return within(jet.distances.harmonic_mean, 0, infinity);
 }
 
@@ -126,7 +135,8 @@ bool usable(const Record& r) {
   const bool sized = within(f.normal_scale, 0, most) && within(f.unscaled, 0, most) &&
                      within(f.smallest, 0, f.radius) && f.largest >= f.radius;
   return placed && shaped(f) && sized && static_cast<int>(f.falloff) <= static_cast<int>(Falloff::tabellion) &&
-         f.order <= 2 && within(r.gradient_scale, 0, 1) && bounded(r.jet, f.radius) && curved(r);
+         f.order <= 2 && within(r.jet.standard_error, 0, most) && within(r.gradient_scale, 0, 1) &&
+         bounded(r.jet, f.radius) && curved(r);
 }
 
 constexpr std::size_t head_size = sizeof magic + 4 + 8 + 4;

@@ -5,6 +5,7 @@
 #include "isophote/core/rgb.h"
 #include "isophote/core/sym3.h"
 #include "isophote/core/vec.h"
+#include "isophote/derivatives/obstacles.h"
 
 namespace isophote {
 
@@ -18,9 +19,10 @@ struct Gradient {
   bool operator==(const Gradient&) const = default;
 };
 
-/// How far the surfaces are that a record sees, along cosine-distributed rays.
+/// How far the surfaces are that a record sees.
 struct DistanceStats {
-  float harmonic_mean = 0;  ///< infinity under an open sky
+  float harmonic_mean = 0;  ///< along cosine-distributed rays; infinity under an open sky
+  Obstacles obstacles;
 };
 
 /// A value with its derivatives. Units: irradiance in W/m2 (cosine-weighted solid angle), gradients per metre and per

@@ -98,6 +98,7 @@ Jet<Rgb> irradiance(const HemisphereGather& gather) {
   jet.standard_error = static_cast<float>(standard_error(gather));
   jet.rays = static_cast<std::uint32_t>(gather.samples.size());
   jet.distances.harmonic_mean = static_cast<float>(n / inverse_distances);
+  jet.distances.obstacles = obstacles(gather);
   return jet;
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/render.h"
@@ -28,13 +29,11 @@ struct Candidate {
   float nearest = infinity;
   float reach = 0;
 
-  /// Takes note of a record; true if it serves here.
-  bool meet(const Record& record) {
-    if (footprint_error(record, place.position, place.normal) < 1) return true;
-    if (dot(record.normal, place.normal) <= 0) return false;
+  /// Takes note of a record that does not serve here.
+  void meet(const Record& record) {
+    if (dot(record.normal, place.normal) <= 0) return;
     const float distance = quadratic_form(record.footprint.shape, place.position - record.position);
     if (distance < nearest) nearest = distance, reach = record.footprint.radius;
-    return false;
   }
 };
 
@@ -78,9 +77,11 @@ class Builder {
     share_ = (1 - done_) / left;
   }
 
-  void add_uncovered(const FirstPoint& seen, std::uint64_t key, std::vector<Candidate>& found) const {
+  void add_uncovered(const FirstPoint& seen, std::uint64_t key, std::vector<Candidate>& found,
+                     RayCounts& counts) const {
+    const LeakTest open{job_.world, counts};
     const std::optional<Place> place = place_of(job_, seen, key);
-    if (!place || cache_.covers({place->position, place->normal, place->normal})) return;
+    if (!place || cache_.covers(query_at(*place), open)) return;
     Candidate candidate{*place};
     cache_.visit_near(place->position, [&](const Record& record) { candidate.meet(record); });
     found.push_back(candidate);
@@ -112,8 +113,8 @@ class Builder {
         Sampler stream = job_.sampler(x, y, sample);
         const FirstPoint seen = first_point(job_.world, job_.camera_ray(x, y, stream), true, stream, counts.camera);
         const std::uint64_t key = hash(job_.seed, x, y, sample);
-        add_uncovered(seen, key, found[row]);
-        if (shines(seen)) add_uncovered(reflected(seen, stream, counts), hash(key), found[row]);
+        add_uncovered(seen, key, found[row], counts);
+        if (shines(seen)) add_uncovered(reflected(seen, stream, counts), hash(key), found[row], counts);
       }
     });
     std::vector<Candidate> all;
@@ -136,18 +137,19 @@ class Builder {
       if (places.size() < surveyed_places) places.push_back(c.place);
     const Survey first = survey(job_, places, report_.rays);
     job_.pilot = first.pilot;
+    const LeakTest open{job_.world, report_.rays};
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Place& place = places[i];
-      if (cache_.covers({place.position, place.normal, place.normal})) continue;
+      if (cache_.covers(query_at(place), open)) continue;
       const auto id =
           cache_.insert(job_.method.make_record(place.position, place.normal, first.jets[i], view_of(job_, place)));
       job_.method.settle(cache_.settling(), {&id, 1});
       report_.places.push_back(place);
     }
     std::erase_if(candidates, [&](Candidate& c) {
-      bool covered = false;
-      for (const Record& record : cache_.records()) covered |= c.meet(record);
-      return covered;
+      if (cache_.covers(query_at(c.place), open)) return true;
+      for (const Record& record : cache_.records()) c.meet(record);
+      return false;
     });
   }
 
@@ -162,8 +164,14 @@ class Builder {
       const std::vector<std::uint32_t> fresh = add_records(pick(candidates));
       std::vector<char> covered(candidates.size());
       const auto records = cache_.records();
-      for_each(job_.parallel, candidates.size(), 256, [&](std::size_t i, RayCounts&) {
-        for (const std::uint32_t id : fresh) covered[i] |= candidates[i].meet(records[id]);
+      report_.rays += for_each(job_.parallel, candidates.size(), 256, [&](std::size_t i, RayCounts& counts) {
+        const LeakTest open{job_.world, counts};
+        const Query query = query_at(candidates[i].place);
+        for (const std::uint32_t id : fresh) {
+          covered[i] = serving_error(records[id], query, open) < 1;
+          if (covered[i]) return;
+          candidates[i].meet(records[id]);
+        }
       });
       std::size_t kept = 0;
       for (std::size_t i = 0; i < candidates.size(); ++i)

@@ -5,6 +5,7 @@
 
 #include "isophote/integrate/adaptive_rays.h"
 #include "isophote/integrate/gather.h"
+#include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
 #include "isophote/integrate/shade.h"
 
@@ -44,8 +45,7 @@ CheckPoint check_point(const Job& job, const RecordCache& cache, int turn, std::
   const FirstPoint seen = first_point(job.world, ray, true, stream, rays.camera);
   CheckPoint result;
   if (const std::optional<Place> place = place_of(job, seen, hash(key, index))) {
-    // Without the normal map: the gather's hemisphere is about the interpolated normal.
-    if (const auto cached = cache.interpolate({place->position, place->normal, place->normal})) {
+    if (const auto cached = cache.interpolate(query_at(*place), LeakTest{job.world, rays})) {
       HemisphereGather scratch;
       const int half = reference_rays(job, cache, *place) / 2;
       const double a = reference(job, *place, half, hash(key, index, 0), scratch, rays);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
 #include "isophote/integrate/shade.h"
 
@@ -54,11 +55,11 @@ class Reaches {
   View view_;
 };
 
-void add_serving(const Job& job, const RecordCache& cache, const Query& query, Explanation& e) {
+void add_serving(const Job& job, const RecordCache& cache, const Query& query, OpenTest open, Explanation& e) {
   const Reaches reaches(job);
   const ErrorModel model = job.method.error_model();
   float weights = 0;
-  cache.visit_serving(query, [&](std::uint32_t id, float error, float weight) {
+  cache.visit_serving(query, open, [&](std::uint32_t id, float error, float weight) {
     const Record& record = cache.records()[id];
     const Vec3 q = query.position - record.position;
     ServingRecord& s = e.serving.emplace_back();
@@ -71,6 +72,7 @@ void add_serving(const Job& job, const RecordCache& cache, const Query& query, E
     s.value = record.jet.value;
     s.extrapolated = record.extrapolate(q, query.facing);
     s.predicted_error = predicted_error(record, q, query.normal, model);
+    s.tested = record.jet.distances.obstacles.before(q, record.normal);
     s.reach = reaches(record);
     weights += weight;
   });
@@ -82,12 +84,12 @@ void add_serving(const Job& job, const RecordCache& cache, const Query& query, E
                    [](const ServingRecord& a, const ServingRecord& b) { return a.share > b.share; });
 }
 
-void add_near_misses(const RecordCache& cache, const Query& query, Explanation& e) {
+void add_near_misses(const RecordCache& cache, const Query& query, OpenTest open, Explanation& e) {
   for (std::uint32_t id = 0; id < cache.records().size(); ++id) {
     const Record& record = cache.records()[id];
     const Vec3 q = query.position - record.position;
     const float rim = std::sqrt(quadratic_form(record.footprint.shape, q));
-    const Standing why = standing(record, query.position, query.normal);
+    const Standing why = standing(record, query, open);
     if (why == Standing::serves || !(rim < near_rim)) continue;
     if (why == Standing::beyond_rim && dot(record.normal, query.normal) <= 0) continue;
     e.near_misses.push_back({id, why, length(q), angle_between(query.normal, record.normal), rim});
@@ -112,9 +114,10 @@ Explanation explain(const Job& job, const RecordCache& cache, int x, int y) {
   if (!e.reads_cache) return e;
   const Query query = query_at(*e.seen.point);
   e.normal = query.normal;
-  e.irradiance = cache.interpolate(query);
-  add_serving(job, cache, query, e);
-  add_near_misses(cache, query, e);
+  const LeakTest open{job.world, counts};
+  e.irradiance = cache.interpolate(query, open);
+  add_serving(job, cache, query, open, e);
+  add_near_misses(cache, query, open, e);
   return e;
 }
 

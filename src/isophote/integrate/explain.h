@@ -28,6 +28,7 @@ struct ServingRecord {
   float weight = 0, share = 0;  ///< before and after division by the sum of all
   Rgb value, extrapolated;      ///< irradiance at the record, and from there at the place, W/m2
   float predicted_error = 0;    ///< relative, of the extrapolated value
+  bool tested = false;          ///< it saw something near, and a ray found the way to be free
   Reach reach;
 };
 

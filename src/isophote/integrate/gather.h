@@ -17,6 +17,9 @@ struct Place {
   std::uint64_t key = 0;  ///< seeds what is computed here: a hash of the camera sample that asked
 };
 
+/// What it asks the cache, without a normal map: the hemisphere is about the interpolated normal.
+inline Query query_at(const Place& place) { return {place.position, place.normal, place.normal}; }
+
 /// One ray into each stratum of the hemisphere above `place`. Radiance is a path's, or, where `cache` is not null and
 /// covers the hit, direct light plus the cached irradiance; emission of directly sampled emitters at the first hit is
 /// left out. `key` seeds the record.

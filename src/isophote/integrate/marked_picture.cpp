@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
 #include "isophote/integrate/shade.h"
 
@@ -57,7 +58,7 @@ RgbImage marked_picture(const Job& job, const RecordCache& cache, const Window& 
         if (const auto colour = mark(x, y, view.sight)) {
           mixture.marks += *colour, ++mixture.marked;
         } else if (view.sight) {
-          if (const auto irradiance = cache.interpolate(query_at(*view.seen.point)))
+          if (const auto irradiance = cache.interpolate(query_at(*view.seen.point), LeakTest{job.world, counts}))
             mixture.irradiance += *irradiance, ++mixture.lit;
         }
       }

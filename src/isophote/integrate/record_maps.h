@@ -15,10 +15,10 @@ struct RecordMaps {
 RecordMaps record_maps(const Job& job, const RecordCache& cache);
 
 /// The error that interpolation at a place predicts: the mean of its records', weighted as their values are.
-float predicted_error_at(const RecordCache& cache, const Query& query, const ErrorModel& model);
+float predicted_error_at(const RecordCache& cache, const Query& query, OpenTest open, const ErrorModel& model);
 
 /// Records per square metre at a place. Each record is spread over the ellipse of its footprint, as a cone of volume
 /// 1, so that the integral over a surface is the number of its records.
-float record_density(const RecordCache& cache, const Query& query);
+float record_density(const RecordCache& cache, const Query& query, OpenTest open);
 
 }  // namespace isophote

@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/shade.h"
@@ -35,7 +36,8 @@ Seen shade_sample(const Job& job, const RecordCache* cache, const Ray& ray, cons
   if (!cache || seen.depth + 1 >= job.world.max_depth) {
     const Scattered path = scatter(job.world, point, wo, seen.depth, stream, counts);
     light = {path.direct, path.indirect, path.irradiance, true};
-  } else if (uncovered == Uncovered::skip && point.bsdf.has_diffuse() && !cache->covers(query_at(point))) {
+  } else if (uncovered == Uncovered::skip && point.bsdf.has_diffuse() &&
+             !cache->covers(query_at(point), LeakTest{job.world, counts})) {
     return {{}, false};  // nothing is known here, not even the direct light: alpha 0
   } else {
     light = shade(job.world, *cache, point, wo, seen.depth, stream, counts);
@@ -166,7 +168,8 @@ LazyReport render_lazily(const Job& asked, RecordCache& cache, Film& film) {
         const Ray ray = job.camera_ray(x, y, stream);
         const FirstPoint seen = first_point(job.world, ray, true, stream, report.final.rays.camera);
         const std::optional<Place> place = place_of(job, seen, hash(job.seed, x, y, s));
-        if (place && !report.final.cancelled && !cache.covers({place->position, place->normal, place->normal})) {
+        const LeakTest open{job.world, report.build_rays};
+        if (place && !report.final.cancelled && !cache.covers(query_at(*place), open)) {
           const Clock before = Clock::now();
           const auto id = static_cast<std::uint32_t>(cache.records().size());
           cache.insert(make_record(job, cache, *place, scratch, report.build_rays));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "isophote/integrate/leak_test.h"
+
 namespace isophote {
 namespace {
 
@@ -29,7 +31,7 @@ Left shade_without_glossy(const World& world, const RecordCache& cache, const Su
   };
   if (depth > 0 && world.max_depth < std::numeric_limits<int>::max()) return path(true);
   if (!point.bsdf.has_diffuse()) return {};
-  const std::optional<Rgb> irradiance = cache.interpolate(query_at(point));
+  const std::optional<Rgb> irradiance = cache.interpolate(query_at(point), LeakTest{world, counts});
   if (!irradiance) return path(false);
   return {{direct_diffuse(world, point, wo, sampler, counts), diffuse_albedo(point.bsdf, wo) * *irradiance / pi,
            *irradiance, true}};

@@ -166,6 +166,7 @@ Rgb trace_on(const World& world, Arrival arrival, int depth, Sampler& sampler, R
 
 RayCounts& RayCounts::operator+=(const RayCounts& o) {
   camera += o.camera, path += o.path, shadow += o.shadow, gather += o.gather, check += o.check;
+  verification += o.verification;
   return *this;
 }
 

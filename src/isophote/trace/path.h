@@ -20,8 +20,8 @@ struct World {
 
 /// Rays cast, by purpose. Each worker counts for itself.
 struct RayCounts {
-  std::uint64_t camera = 0, path = 0, shadow = 0, gather = 0, check = 0;
-  std::uint64_t total() const { return camera + path + shadow + gather + check; }
+  std::uint64_t camera = 0, path = 0, shadow = 0, gather = 0, check = 0, verification = 0;
+  std::uint64_t total() const { return camera + path + shadow + gather + check + verification; }
   RayCounts& operator+=(const RayCounts& o);
 };
 

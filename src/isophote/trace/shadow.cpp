@@ -1,5 +1,8 @@
 #include "isophote/trace/shadow.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace isophote {
 namespace {
 
@@ -47,6 +50,23 @@ Rgb light_transmittance(const World& world, const SurfacePoint& point, const Lig
   }
   // A closed solid hides what is infinitely far.
   return light.distance < infinity ? passed * transmittance(point.medium, light.distance) : passed;
+}
+
+bool open_between(const World& world, const Spot& a, const Spot& b, RayCounts& counts) {
+  const Vec3 way = b.position - a.position, normals = a.normal + b.normal;
+  const float distance = length(way), size = length(normals);
+  if (!(distance > 0 && size > 0)) return true;
+  // An arc whose normals turn by t bulges over its chord by t / 8 of it: the way leads over that twice, and off even
+  // ground by more than the coordinates are rounded.
+  constexpr float off_ground = 0.05f, over_bulge = 0.25f, rounding = 0x1p-19f;
+  const auto largest = [](const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+  const float lift = distance * (off_ground + over_bulge * length(a.normal - b.normal)) +
+                     rounding * std::max(largest(a.position), largest(b.position));
+  // It starts and ends a little short of what touches the surface just there.
+  constexpr float short_of = 0x1p-14f;
+  const Ray ray{a.position + normals * (lift / size), way / distance, short_of * distance, (1 - short_of) * distance};
+  ++counts.verification;
+  return !world.rays.occluded(ray, 0);
 }
 
 }  // namespace isophote

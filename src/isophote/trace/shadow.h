@@ -13,4 +13,13 @@ Rgb transmittance(const Rgb& sigma, float distance);
 Rgb light_transmittance(const World& world, const SurfacePoint& point, const LightSample& light, std::uint32_t seed,
                         RayCounts& counts);
 
+/// A place of a surface.
+struct Spot {
+  Vec3 position, normal;
+};
+
+/// Is the way free from one spot to another that faces alike, at the height of half a tenth of their distance over
+/// both? Alpha-masked surfaces stop it where they are opaque; glass does too, since it parts what is lit differently.
+bool open_between(const World& world, const Spot& a, const Spot& b, RayCounts& counts);
+
 }  // namespace isophote

@@ -29,10 +29,11 @@ float measure(const Record& record, const Vec3& q, const Vec3& n, const ErrorMod
 }  // namespace
 
 float predicted_error(const Record& record, const Vec3& q, const Vec3& n, const ErrorModel& model) {
-  // The error that the record's own value has, being an estimate, belongs into this sum once jets know it.
-  if (!model.by_hessian) return std::min(1.0f, std::pow(measure(record, q, n, model) / model.factor, 1 / model.power));
-  const float error = std::abs(left_out(record, q, n)), value = luminance(record.jet.value);
-  return error < value ? error / value : error > 0 ? 1.0f : 0.0f;
+  const float value = luminance(record.jet.value);
+  const auto relative = [&](float error) { return error < value ? error / value : error > 0 ? 1.0f : 0.0f; };
+  const float reuse = model.by_hessian ? relative(std::abs(left_out(record, q, n)))
+                                       : std::pow(measure(record, q, n, model) / model.factor, 1 / model.power);
+  return std::min(1.0f, std::hypot(reuse, relative(record.jet.standard_error)));
 }
 
 float predicted_error_at_rim(const Record& record, const ErrorModel& model) {

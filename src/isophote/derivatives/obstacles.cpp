@@ -1,0 +1,37 @@
+#include "isophote/derivatives/obstacles.h"
+
+#include "isophote/derivatives/gather.h"
+
+namespace isophote {
+namespace {
+
+int sector_at(const Strata& strata, double k) {
+  const double phi = strata.azimuth(k);
+  return Obstacles::sector(static_cast<float>(std::cos(phi)), static_cast<float>(std::sin(phi)));
+}
+
+/// Along the tangent plane for what is low, and the height for what hangs over the record: a query that it hides, on
+/// the next board of a shelf, is no nearer than that either.
+float reach(const GatherSample& sample, const Vec3& normal) {
+  if (!(sample.distance < infinity)) return infinity;
+  const float cosine = std::clamp(dot(sample.direction, normal), 0.0f, 1.0f);
+  return sample.distance * std::max(cosine, std::sqrt(1 - cosine * cosine));
+}
+
+}  // namespace
+
+Obstacles obstacles(const HemisphereGather& gather) {
+  const Strata& s = gather.strata;
+  Obstacles result;
+  for (int k = 0; k < s.azimuthal; ++k) {
+    float nearest = infinity;
+    for (int j = 0; j < s.polar; ++j) nearest = std::min(nearest, reach(gather.at(j, k), gather.frame.n));
+    constexpr int all = Obstacles::sectors;
+    const int first = sector_at(s, k - 1);
+    const int more = s.azimuthal > 3 ? (sector_at(s, k + 2) - first + all) % all : all - 1;  // of 3, all are neighbours
+    for (int i = 0; i <= more; ++i) result.meet((first + i) % all, nearest);
+  }
+  return result;
+}
+
+}  // namespace isophote

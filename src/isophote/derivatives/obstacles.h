@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "isophote/core/frame.h"
+#include "isophote/core/vec.h"
+
+namespace isophote {
+
+struct HemisphereGather;
+
+/// The nearest things a record sees, by azimuth about its normal: all that lookup has to know to tell where something
+/// may stand between the record and a query. Each sector holds a distance along the tangent plane or above it,
+/// whichever is greater, rounded down to the upper half of a float's bits.
+struct Obstacles {
+  static constexpr int sectors = 16;
+  static constexpr std::uint16_t nothing = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >> 16;
+
+  std::array<std::uint16_t, sectors> nearest = filled(nothing);  ///< bits
+
+  float distance(int sector) const { return std::bit_cast<float>(static_cast<std::uint32_t>(nearest[sector]) << 16); }
+  /// Takes note of something at `distance` >= 0.
+  void meet(int sector, float distance) {
+    const auto bits = static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(distance) >> 16);
+    nearest[sector] = std::min(nearest[sector], bits);  // bits of floats that are not negative are in their order
+  }
+
+  /// The sector of a direction in the tangent plane. Quarter turns are cut evenly in y / (|x| + |y|) instead of the
+  /// angle: all sectors are about as wide (18 to 27 degrees), for the price of a division.
+  static int sector(float x, float y) {
+    constexpr int half = sectors / 2;
+    const float sum = std::abs(x) + std::abs(y);
+    if (!(sum > 0)) return 0;
+    const float along = (x >= 0 ? y : -y) / sum;  // from -1 to 1 over each half turn
+    const int step = std::min(static_cast<int>((along + 1) * (half / 2)), half - 1);
+    return x >= 0 ? step : step + half;
+  }
+
+  /// May something stand between the record and what lies at `q` from it? What it saw may reach nearer than where its
+  /// rays, which are few, met it: the margin is for that.
+  bool before(const Vec3& q, const Vec3& normal) const {
+    constexpr float margin = 0.8f;
+    const Frame frame(normal);
+    const float reach = margin * distance(sector(dot(q, frame.u), dot(q, frame.v)));
+    return length_squared(q) > reach * reach;
+  }
+
+  bool operator==(const Obstacles&) const = default;
+
+ private:
+  static constexpr std::array<std::uint16_t, sectors> filled(std::uint16_t bits) {
+    std::array<std::uint16_t, sectors> all{};
+    all.fill(bits);
+    return all;
+  }
+};
+
+/// What the gather saw, each sample counting for the sectors of its own stratum and of the two beside it: a thing that
+/// stands between rays is met by neither, but it is seldom thinner and shorter than they are apart.
+Obstacles obstacles(const HemisphereGather& gather);
+
+}  // namespace isophote

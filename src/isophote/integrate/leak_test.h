@@ -1,0 +1,19 @@
+#pragma once
+
+#include "isophote/cache/record_cache.h"
+#include "isophote/trace/shadow.h"
+
+namespace isophote {
+
+/// Answers the cache whether a record that saw something near lies in the open towards a query, by one ray. Lives no
+/// longer than `world` and `counts`.
+struct LeakTest {
+  const World& world;
+  RayCounts& counts;
+
+  bool operator()(const Record& record, const Query& query) const {
+    return open_between(world, {record.position, record.normal}, {query.position, query.normal}, counts);
+  }
+};
+
+}  // namespace isophote
