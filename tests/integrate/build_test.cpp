@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "integrate/stage.h"
+#include "isophote/integrate/jet_memo.h"
 #include "isophote/integrate/solve_records.h"
 #include "support/scenes.h"
 
@@ -104,6 +105,24 @@ TEST(BuildWithRecords, StopsWhereNoThresholdGivesAsFew) {
   EXPECT_EQ(job.method.settings.a, greatest_threshold);
   EXPECT_GT(solved.cache.records().size(), 1u);
   EXPECT_LT(solved.report.rays.gather, 2 * first.rays.gather);  // the first try and the last possible one
+}
+
+// What other methods and thresholds asked for before changes no bit, and is not gathered again.
+TEST(JetMemo, RecordsAreTheSameWithAndWithout) {
+  const Stage stage("cornell-box.glb");
+  JetMemo memo({&find_estimator("irradiance"), &find_estimator("ward-heckbert-exact"), &find_estimator("swept-edges")});
+  for (const char* name : {"ward1988", "bounded", "swept"}) {
+    SCOPED_TRACE(name);
+    Job job = stage.job(method(name, 0.1), 64, 64, 1);
+    job.strata = Strata::about(100);
+    const Rendered fresh = render_all(job);
+    job.memo = &memo;
+    const Rendered first = render_all(job), second = render_all(job);
+    EXPECT_TRUE(record_bytes(first.cache) == record_bytes(fresh.cache));
+    EXPECT_TRUE(record_bytes(second.cache) == record_bytes(fresh.cache));
+    EXPECT_LE(first.build.rays.gather, fresh.build.rays.gather);
+    EXPECT_LT(second.build.rays.gather, fresh.build.rays.gather / 2);  // a pilot's at most
+  }
 }
 
 TEST(LazyOrder, CoversEverythingWithAboutTheRecordsOfRounds) {

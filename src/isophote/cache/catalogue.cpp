@@ -136,10 +136,14 @@ const auto& find(const Table& table, std::string_view name, const char* kind) {
 }  // namespace
 
 Record Method::make_record(const HemisphereGather& gather, const View& view) const {
+  return make_record(gather.position, gather.frame.n, estimator->estimate(gather), view);
+}
+
+Record Method::make_record(const Vec3& position, const Vec3& normal, const Jet<Rgb>& jet, const View& view) const {
   Record record;
-  record.position = gather.position;
-  record.normal = gather.frame.n;
-  record.jet = estimator->estimate(gather);
+  record.position = position;
+  record.normal = normal;
+  record.jet = jet;
   record.footprint = metric->measure(record.jet, view, settings);
   if (settings.falloff) record.footprint.falloff = *settings.falloff;
   record.footprint.order = static_cast<std::uint8_t>(std::min(order, estimator->order));

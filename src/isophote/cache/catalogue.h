@@ -49,6 +49,8 @@ struct Method {
 
   bool caches() const { return estimator != nullptr; }
   Record make_record(const HemisphereGather& gather, const View& view) const;
+  /// Where what the estimator says is known already.
+  Record make_record(const Vec3& position, const Vec3& normal, const Jet<Rgb>& jet, const View& view) const;
   void settle(const Settling& settling, std::span<const std::uint32_t> fresh) const;
 };
 

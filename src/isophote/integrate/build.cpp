@@ -4,6 +4,8 @@
 #include <bit>
 #include <limits>
 
+#include "isophote/core/check.h"
+#include "isophote/integrate/jet_memo.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/render.h"
 
@@ -199,10 +201,17 @@ std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint6
 
 Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
                    RayCounts& counts) {
-  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), place.key);
-  gather_hemisphere(job.world, job.method.secondary ? &cache : nullptr, place, job.strata, key, scratch, counts);
-  return job.method.make_record(scratch, {place.pixel, place.pixel * static_cast<float>(job.height),
-                                          job.world.rays.scene_scale(), place.normal, job.pilot});
+  ISOPHOTE_CHECK(job.memo && job.method.secondary, ==, false);
+  const auto gather = [&]() -> const HemisphereGather& {
+    const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), place.key);
+    gather_hemisphere(job.world, job.method.secondary ? &cache : nullptr, place, job.strata, key, scratch, counts);
+    return scratch;
+  };
+  const Estimator& estimator = *job.method.estimator;
+  const Jet<Rgb> jet = job.memo ? job.memo->jet(estimator, place.key, gather) : estimator.estimate(gather());
+  return job.method.make_record(place.position, place.normal, jet,
+                                {place.pixel, place.pixel * static_cast<float>(job.height),
+                                 job.world.rays.scene_scale(), place.normal, job.pilot});
 }
 
 RecordCache empty_cache(const Job& job) { return RecordCache(job.world.scene.bounds()); }

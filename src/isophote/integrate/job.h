@@ -23,6 +23,8 @@ struct Progress {
   bool stop() const { return cancelled && cancelled(); }
 };
 
+class JetMemo;
+
 /// One picture to compute: what it shows, by which method, and on whose threads. Results depend on everything but
 /// `parallel`.
 struct Job {
@@ -34,6 +36,7 @@ struct Job {
   Method method{};
   Strata strata = Strata::about(800);  ///< of each record's gather
   Pilot pilot{};                       ///< what metrics want to know of the whole picture: `run_pilot`
+  JetMemo* memo = nullptr;             ///< where builds share what their places see; not with secondary caching
   ParallelFor parallel{};
   Progress progress{};
 

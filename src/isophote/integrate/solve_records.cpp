@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "isophote/cache/catalogue.h"
+#include "isophote/integrate/jet_memo.h"
 
 namespace isophote {
 namespace {
@@ -15,7 +15,11 @@ constexpr double close_enough = 0.02;
 
 }  // namespace
 
-Solved build_with_records(Job& job, std::size_t wanted) {
+Solved build_with_records(Job& asked, std::size_t wanted) {
+  // Tries differ in where records lie and how far they reach, not in what a place sees, unless that is cached light.
+  std::optional<JetMemo> memo;
+  Job job = asked;
+  if (!job.memo && !job.method.secondary) job.memo = &memo.emplace(std::vector{job.method.estimator});
   struct Try {
     double log_a, log_records;
   };
@@ -48,7 +52,7 @@ Solved build_with_records(Job& job, std::size_t wanted) {
     else
       log_a += 0.6 * (log_records - target);  // records grow about as a^-1.7
   }
-  job.method.settings.a = best_a;
+  asked.method.settings.a = best_a;
   best->report.rays = rays;
   return std::move(*best);
 }

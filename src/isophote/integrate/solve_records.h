@@ -8,10 +8,10 @@ namespace isophote {
 
 /// Builds caches with different thresholds until one has about `wanted` records (within 2%, or the nearest of ten
 /// tries; fewer where no threshold gives as many or as few), and leaves the threshold in job.method. Tries cost full
-/// builds.
+/// builds where gathers read the cache; else a place that several tries ask for is gathered once.
 struct Solved {
   RecordCache cache;
-  BuildReport report;  ///< of all tries together; rounds of the one kept
+  BuildReport report;  ///< rays of all tries together; the rest of the one kept
 };
 Solved build_with_records(Job& job, std::size_t wanted);
 
