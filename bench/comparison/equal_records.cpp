@@ -35,10 +35,11 @@ void compare_at_equal_records(Job job, const std::vector<FixedPoint>& points, co
       const Clock begin = Clock::now();
       const Solved solved = build_with_records(job, wanted);
       const PointErrors e = point_errors(points, solved.cache);
-      fmt::print("{{\"variant\": \"{}\", \"wanted\": {}, \"records\": {}, \"a\": {}, \"rmse\": {}, \"mean\": {}, "
-                 "\"bias\": {}, \"noise\": {}, \"points\": {}, \"uncovered\": {}, \"cpu_seconds\": {}}}\n",
-                 text, wanted, solved.cache.records().size(), job.method.settings.a, e.rmse, e.mean, e.bias, e.noise,
-                 e.points, e.uncovered, (Clock::now() - begin).cpu);
+      fmt::print(
+          "{{\"variant\": \"{}\", \"wanted\": {}, \"records\": {}, \"a\": {}, \"rmse\": {}, \"mean\": {}, "
+          "\"bias\": {}, \"noise\": {}, \"points\": {}, \"uncovered\": {}, \"cpu_seconds\": {}}}\n",
+          text, wanted, solved.cache.records().size(), job.method.settings.a, e.rmse, e.mean, e.bias, e.noise, e.points,
+          e.uncovered, (Clock::now() - begin).cpu);
       std::fflush(stdout);
       if (!comparison.pictures.empty())
         write_png(fmt::format("{}/{}-{}.png", comparison.pictures, text, wanted), record_picture(job, solved.cache), 0);

@@ -23,10 +23,10 @@ std::vector<FixedPoint> read_points(const std::string& path);
 
 /// Errors of luminance over the points, relative to its mean over them.
 struct PointErrors {
-  double rmse = 0;           ///< the references' noise taken out
-  double bias = 0;           ///< mean of cache - reference
-  double mean = 0;           ///< of |cache - reference|, noise included
-  double noise = 0;          ///< root mean square error of the references themselves
+  double rmse = 0;                        ///< the references' noise taken out
+  double bias = 0;                        ///< mean of cache - reference
+  double mean = 0;                        ///< of |cache - reference|, noise included
+  double noise = 0;                       ///< root mean square error of the references themselves
   std::size_t points = 0, uncovered = 0;  ///< uncovered ones are in no other number
 };
 PointErrors point_errors(const std::vector<FixedPoint>& points, const RecordCache& cache);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "comparison/equal_records.h"
+#include "comparison/plane_figures.h"
 #include "comparison/set_up.h"
 
 namespace isophote::bench {
@@ -11,6 +12,8 @@ namespace {
 
 constexpr const char* usage =
     "usage: bench_figures points SCENE SIZE COUNT RAYS FILE\n"
+    "       bench_figures line\n"
+    "       bench_figures derivatives FOLDER\n"
     "       bench_figures equal SCENE SIZE SEED RAYS FILE VARIANT,... COUNT,... [PICTURES]\n";
 
 int run(const std::vector<std::string>& arguments) {
@@ -28,6 +31,10 @@ int run(const std::vector<std::string>& arguments) {
     Comparison comparison{split(arguments[6], ','), {}, arguments.size() > 8 ? arguments[8] : ""};
     for (const std::string& count : split(arguments[7], ',')) comparison.counts.push_back(std::stoul(count));
     compare_at_equal_records(job, read_points(arguments[5]), comparison);
+  } else if (is("line", 0, 0)) {
+    print_line();
+  } else if (is("derivatives", 1, 1)) {
+    draw_derivatives(arguments[1], all_threads());
   } else {
     fmt::print(stderr, "{}", usage);
     return 2;

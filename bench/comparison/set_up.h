@@ -11,7 +11,12 @@
 
 namespace isophote::bench {
 
-/// A scene with all that building caches in it takes, on as many threads as the machine has.
+/// A loop on as many threads as the machine has.
+inline ParallelFor all_threads() {
+  return thread_for(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+}
+
+/// A scene with all that building caches in it takes.
 class SetUp {
  public:
   SetUp(const std::string& scene, const std::string& size)
@@ -26,7 +31,7 @@ class SetUp {
   Job job() const {
     Job job{World{loaded_.scene, rays_, emitters_}, loaded_.scene.cameras.at(0)};
     job.width = width_, job.height = height_;
-    job.parallel = thread_for(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+    job.parallel = all_threads();
     return job;
   }
 
