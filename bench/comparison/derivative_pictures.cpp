@@ -45,8 +45,11 @@ Rgb signed_colour(double t) {
   return pale * (1 - s) + deep * s;
 }
 
+double gradient_size(const Derivatives& d) { return std::hypot(d.gx, d.gy); }
+double hessian_size(const Derivatives& d) { return std::sqrt(d.hxx * d.hxx + 2 * d.hxy * d.hxy + d.hyy * d.hyy); }
+
 Rgb gradient_colour(const Derivatives& d) {
-  return false_colour(static_cast<float>(std::min(1.0, std::hypot(d.gx, d.gy) / greatest_gradient)));
+  return false_colour(static_cast<float>(std::min(1.0, gradient_size(d) / greatest_gradient)));
 }
 /// The greater (sign 1) or the lesser (-1) eigenvalue, drawn by the root of its size: small ones matter too.
 Rgb eigenvalue_colour(const Derivatives& d, int sign) {
@@ -68,21 +71,25 @@ void draw_field(const std::string& stem, const Field& field, bool has_hessian) {
 }
 
 struct Errors {
-  double gradient = 0, hessian = 0;  ///< root mean square over the plane, relative to that of the truth
+  double rms = 0;     ///< over the plane, relative to the truth's own root mean square
+  double median = 0;  ///< of what each place is off by, relative to the truth there
 };
 
-Errors errors(const Field& field, const Field& exact) {
-  const auto square_g = [](const Derivatives& d) { return d.gx * d.gx + d.gy * d.gy; };
-  const auto square_h = [](const Derivatives& d) { return d.hxx * d.hxx + 2 * d.hxy * d.hxy + d.hyy * d.hyy; };
-  double g = 0, h = 0, all_g = 0, all_h = 0;
+/// `size` is of a gradient or a Hessian.
+Errors errors(const Field& field, const Field& exact, const auto& size) {
+  double off = 0, all = 0;
+  std::vector<double> relative;
   for (std::size_t i = 0; i < field.size(); ++i) {
     const Derivatives &a = field[i], &b = exact[i];
-    const Derivatives off{a.gx - b.gx, a.gy - b.gy, a.hxx - b.hxx, a.hxy - b.hxy, a.hyy - b.hyy};
-    g += square_g(off), all_g += square_g(b);
-    h += square_h(off), all_h += square_h(b);
+    const double here = size({a.gx - b.gx, a.gy - b.gy, a.hxx - b.hxx, a.hxy - b.hxy, a.hyy - b.hyy}), truth = size(b);
+    off += here * here, all += truth * truth;
+    relative.push_back(here / truth);
   }
-  return {std::sqrt(g / all_g), std::sqrt(h / all_h)};
+  std::nth_element(relative.begin(), relative.begin() + relative.size() / 2, relative.end());
+  return {std::sqrt(off / all), relative[relative.size() / 2]};
 }
+
+std::string json(const Errors& e) { return fmt::format("{{\"rms\": {}, \"median\": {}}}", e.rms, e.median); }
 
 }  // namespace
 
@@ -98,9 +105,9 @@ void draw_derivatives(const std::string& folder, const ParallelFor& parallel) {
         return of_jet(estimator.estimate(plane.gather(x, y, strata, i)));
       });
       draw_field(fmt::format("{}/{}-{}", folder, name, strata.size()), estimated, estimator.order > 1);
-      const Errors e = errors(estimated, exact);
       fmt::print("{{\"estimator\": \"{}\", \"rays\": {}, \"gradient\": {}, \"hessian\": {}}}\n", name, strata.size(),
-                 e.gradient, estimator.order > 1 ? fmt::format("{}", e.hessian) : "null");
+                 json(errors(estimated, exact, gradient_size)),
+                 estimator.order > 1 ? json(errors(estimated, exact, hessian_size)) : "null");
       std::fflush(stdout);
     }
   }
