@@ -144,7 +144,7 @@ TEST(TotalError, Scales) {
   }
 }
 
-// Radii by Hessians grow by no more than half the distance.
+// With a slope of 1/2 radii grow by no more than half the distance.
 TEST(LipschitzClamping, HoldsForEveryPair) {
   RandomPlaces random(3);
   std::vector<Record> records;
