@@ -96,15 +96,14 @@ def methods(results):
         for rays in (scene.exact_rays, 800):
             parts.append(comparison(results, scene, rays, PRESETS + PARTS))
     for scene in results.scenes:
-        parts.append(sheet_of_records(results, scene, PRESETS, results.counts[1]))
+        parts.append(sheet_of_records(results, scene, PRESETS, results.counts[1], 4))
     return "\n".join(parts)
 
 
-def sheet_of_records(results, scene, variants, count):
-    folder = results.folder / f"records-{scene.name}"
+def sheet_of_records(results, scene, variants, count, columns):
+    folder = results.folder / f"records-{scene.name}-{scene.size}"
     results.measured(scene, 800, results.seeds[0], variants, [count], folder)
     cells = [(variant, png.read(folder / f"{variant}-{count}.png")) for variant in variants]
-    columns = 4 if len(cells) > 4 else len(cells)
     path = results.figures / f"records-{scene.name}-{count}.png"
     png.sheet(path, [cells[i:i + columns] for i in range(0, len(cells), columns)])
     return (f"{count:,} records in {scene.name}, 800 rays each; a dot where a record lies, the rim of its footprint coloured by radius:\n\n"
@@ -124,6 +123,7 @@ def gradients(results):
 
 
 def record_pictures(results):
-    count = 500 if results.trial else 1700
-    text = sheet_of_records(results, results.cornell, ("ward1992", "bounded", "schwarzhaupt2012", "swept"), count)
+    count, size = (500, "128x128") if results.trial else (1700, "384x384")
+    scene = Scene("cornell-box", size, results.cornell.exact_rays, results.cornell.point_rays)
+    text = sheet_of_records(results, scene, ("ward1992", "bounded", "schwarzhaupt2012", "swept"), count, 2)
     return f"## 4. Where {count:,} records go: split sphere against Hessian\n\n" + text

@@ -24,15 +24,36 @@ std::vector<const Estimator*> estimators_of(const std::vector<std::string>& vari
   return all;
 }
 
+/// Bisects with few rays, so that few places outside the wanted caches are given many.
+class Sketch {
+ public:
+  Sketch(const Job& job, const std::vector<const Estimator*>& estimators) : job_(job), memo_(estimators) {
+    job_.strata = Strata::about(200);
+    job_.memo = &memo_;
+  }
+  float threshold(const Method& method, std::size_t wanted) {
+    job_.method = method;
+    build_with_records(job_, wanted);
+    return job_.method.settings.a;
+  }
+
+ private:
+  Job job_;
+  JetMemo memo_;
+};
+
 }  // namespace
 
 void compare_at_equal_records(Job job, const std::vector<FixedPoint>& points, const Comparison& comparison) {
-  JetMemo memo(estimators_of(comparison.variants));
+  const std::vector<const Estimator*> estimators = estimators_of(comparison.variants);
+  Sketch sketch(job, estimators);
+  JetMemo memo(estimators);
   job.memo = &memo;
   for (const std::string& text : comparison.variants) {
     job.method = variant(text);
     for (const std::size_t wanted : comparison.counts) {
       const Clock begin = Clock::now();
+      job.method.settings.a = sketch.threshold(job.method, wanted);
       const Solved solved = build_with_records(job, wanted);
       const PointErrors e = point_errors(points, solved.cache);
       fmt::print(
