@@ -35,7 +35,7 @@ class Results:
         self.seeds, self.counts = (SEEDS[:1], (250, 500)) if trial else (SEEDS, COUNTS)
         self.points = 300 if trial else 2000
         # The long strips of lamps near the contact shadow's ceiling make its light the noisiest.
-        rays, point_rays, size = ((2000, 4000), 2000, "128x128") if trial else ((65536, 262144), 16384, "256x256")
+        rays, point_rays, size = ((2000, 4000), 2000, "128x128") if trial else ((65536, 131072), 16384, "256x256")
         self.scenes = [Scene("cornell-box", size, rays[0], point_rays), Scene("atrium", "160x100" if trial else "320x200", rays[0], point_rays),
                        Scene("contact-shadow", size, rays[1], 2 * point_rays)]
         self.cornell = self.scenes[0]
@@ -84,7 +84,7 @@ def comparison(results, scene, rays, variants):
     rows = [[variant] + [cell(errors[variant, count], count) for count in results.counts] for variant in variants]
     noise = errors[variants[0], results.counts[0]]["noise"]
     strata = noise * (2 * scene.point_rays / rays) ** 0.5
-    return (f"### {scene.name}, {scene.size}, {rays:,} rays a record\n\n" + table(["RMSE %, by records"] + list(results.counts), rows) +
+    return (f"### {scene.name}, {scene.size}, {rays:,} rays a record\n\n" + table(["RMSE %, by records"] + [f"{count:,}" for count in results.counts], rows) +
             f"\n\nNoise: of the references {noise:.2f} % (taken out), of a record's own value about {strata:.2f} % (in all numbers, less where "
             "several records overlap).\n")
 
@@ -102,11 +102,11 @@ def methods(results):
 
 def sheet_of_records(results, scene, variants, count, columns):
     folder = results.folder / f"records-{scene.name}-{scene.size}"
-    results.measured(scene, 800, results.seeds[0], variants, [count], folder)
-    cells = [(variant, png.read(folder / f"{variant}-{count}.png")) for variant in variants]
+    rows = results.measured(scene, 800, results.seeds[0], variants, [count], folder)
+    cells = [(f"{row['variant']}: {100 * row['rmse']:.2f} %", png.read(folder / f"{row['variant']}-{count}.png")) for row in rows]
     path = results.figures / f"records-{scene.name}-{count}.png"
     png.sheet(path, [cells[i:i + columns] for i in range(0, len(cells), columns)])
-    return (f"{count:,} records in {scene.name}, 800 rays each; a dot where a record lies, the rim of its footprint coloured by radius:\n\n"
+    return (f"{count:,} records in {scene.name}, 800 rays each; a dot where a record lies, the rim of its footprint coloured by radius; above it the RMSE:\n\n"
             f"![records of each method]({path.relative_to(results.page.parent)})\n")
 
 

@@ -77,7 +77,7 @@ def against_path_tracing(results):
     kept = results.folder / f"million-{side}.json"
     if not kept.exists():
         # The threshold is found first, so that what is timed is one build.
-        solved = render(view, "--method", "swept", "--records", 4000, "--no-check", "--spp", 1)
+        solved = render(view, "--method", "swept", "--records", 4000, "--no-check", "--spp", 16)
         rows = {}
         for name, flags in {"swept": ("--method", "swept", "--a", solved["parameters"]["a"], "--no-check", "--spp", 16),
                             "path": ("--method", "path", "--spp", samples)}.items():
