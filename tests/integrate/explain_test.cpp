@@ -20,7 +20,7 @@ void expect_near(const Rgb& a, const Rgb& b, float tolerance) {
 
 Pilot pilot_of(const Job& job) {
   RayCounts counts;
-  return run_pilot(job, counts);
+  return survey(job, random_places(job, counts), counts).pilot;
 }
 
 // Shares add up to 1, extrapolated values to what is interpolated, and predictions to the map's.

@@ -59,6 +59,20 @@ TEST(TotalError, IsTheIntegralOfTheSecondOrderTerm) {
   }
 }
 
+// Along a line the integral is eps too, whichever way the curve bends.
+TEST(TotalError, LineForm) {
+  for (const double curvature : {2.5, -0.3}) {
+    const double eps = 0.01, radius = total_error_on_line(curvature, eps);
+    double sum = 0;
+    constexpr int n = 1000;
+    for (int i = 0; i < n; ++i) {
+      const double x = radius * (2 * (i + 0.5) / n - 1);
+      sum += std::abs(curvature * x * x / 2) * 2 * radius / n;
+    }
+    EXPECT_NEAR(sum / eps, 1, 1e-5);
+  }
+}
+
 // A record's error over its area averages to the wanted one where its own rate is the mean of all.
 TEST(TotalError, TheMeanOverTheAreaIsTheWantedError) {
   const Jet<Rgb> jet = curved(3, 0.4f, -1);
@@ -130,7 +144,7 @@ TEST(TotalError, Scales) {
   }
 }
 
-// Radii by Hessians grow by no more than half the distance.
+// With a slope of 1/2 radii grow by no more than half the distance.
 TEST(LipschitzClamping, HoldsForEveryPair) {
   RandomPlaces random(3);
   std::vector<Record> records;

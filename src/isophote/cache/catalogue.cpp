@@ -36,9 +36,8 @@ constexpr Estimator estimator_table[] = {
     {"swept-edges", "", "value, gradients, Hessian", 2, swept_edges},
 };
 
-void settle_by(const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings& s, float scale,
-               float slope) {
-  settle(settling, fresh, {.scale = scale, .neighbours = s.bounds.neighbours, .slope = slope});
+void settle_by(const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings& s, float scale) {
+  settle(settling, fresh, {.scale = scale, .neighbours = s.bounds.neighbours});
 }
 
 float split_sphere_scale(const MetricSettings& s) { return split_sphere_radius(1, s.a); }
@@ -59,7 +58,7 @@ constexpr Metric metric_table[] = {
      .measure = [](const Jet<Rgb>& jet, const View& view,
                    const MetricSettings& s) { return bounded_split_sphere(jet, view, s.a, s.bounds); },
      .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
-                  const MetricSettings& s) { settle_by(settling, fresh, s, split_sphere_scale(s), 1); },
+                  const MetricSettings& s) { settle_by(settling, fresh, s, split_sphere_scale(s)); },
      .scale = split_sphere_scale},
     {.name = "total-error",
      .paper = "[Jarosz 2012]",
@@ -69,13 +68,13 @@ constexpr Metric metric_table[] = {
      .measure = [](const Jet<Rgb>& jet, const View& view,
                    const MetricSettings& s) { return total_error(jet, view, s.a, s.bounds, s.aspect); },
      .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
-                  const MetricSettings& s) { settle_by(settling, fresh, s, 1, 0.5f); }},
+                  const MetricSettings& s) { settle_by(settling, fresh, s, 1); }},
     {.name = "uniform",
      .a_factor = 1.4f,
      .a_power = 0.5f,
      .measure = [](const Jet<Rgb>&, const View& view, const MetricSettings& s) { return uniform(view, s.a); },
      .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
-                  const MetricSettings& s) { settle_by(settling, fresh, s, 1, 1); }},
+                  const MetricSettings& s) { settle_by(settling, fresh, s, 1); }},
 };
 
 /// The row of a name, which must be there for this to compile.

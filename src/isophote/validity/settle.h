@@ -8,7 +8,7 @@ namespace isophote {
 struct SettleRule {
   float scale = 1;          ///< the metric's radius over the unscaled one
   bool neighbours = false;  ///< R_i <= R_j + slope |x_i - x_j| on the unscaled radii of records that face alike
-  float slope = 1;          ///< 1 for distances [Krivanek 2006]; 1/2 for radii by Hessians, which grow no faster
+  float slope = 1;          ///< 1 [Krivanek 2006]; with less, the edges of a room take most records
 };
 
 /// What records do to each other and to themselves once inserted: neighbour clamping, where asked; and where a lower

@@ -69,4 +69,6 @@ Footprint total_error(const Jet<Rgb>& jet, const View& view, float wanted, const
   return footprint;
 }
 
+double total_error_on_line(double curvature, double eps) { return std::cbrt(3 * eps / std::abs(curvature)); }
+
 }  // namespace isophote

@@ -20,4 +20,8 @@ Footprint total_error(const Jet<Rgb>& jet, const View& view, float wanted, const
 /// hundredth keeps black places finite.
 float error_rate(const Jet<Rgb>& jet, const Vec3& normal, float irradiance);
 
+/// The radius at which that integral along a line, where the second derivative is `curvature`, reaches eps: |curvature|
+/// x^2 / 2 over [-R, R] is |curvature| R^3 / 3.
+double total_error_on_line(double curvature, double eps);
+
 }  // namespace isophote

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "isophote/cache/catalogue.h"
+
+namespace isophote::bench {
+
+/// A method to compare: the name of a preset, then any of +estimator=NAME +metric=NAME +order=N +aspect=X +min-pixels=X
+/// +weight=ward|tent +neighbours=on|off. Secondary caching is off: all are given the same gathers.
+Method variant(const std::string& text);
+
+}  // namespace isophote::bench

@@ -1,0 +1,129 @@
+"""Methods at equal numbers of records: sections 2, 3 and 4 of docs/comparison.md."""
+import hashlib
+import json
+import subprocess
+
+import png
+from measure import BUILD, ROOT, table
+
+PROGRAM = ROOT / "build" / "release" / "bench_figures"
+SEEDS = (1, 2, 3)
+COUNTS = (500, 1000, 2000, 4000)
+PRESETS = ("ward1988", "ward1992", "bounded", "jarosz2012", "schwarzhaupt2012", "swept", "uniform", "cached")
+# `swept` with one part after another taken out, and the control with as many orders.
+PARTS = ("swept+order=1", "swept+aspect=1", "swept+aspect=1+order=1", "uniform+order=2")
+
+
+class Scene:
+    """`exact_rays` make a record's own noise small beside the errors compared; scenes differ in how much their light varies."""
+
+    def __init__(self, name, size, exact_rays, point_rays):
+        self.name, self.path, self.size = name, ROOT / "scenes" / f"{name}.glb", size
+        self.exact_rays, self.point_rays = exact_rays, point_rays
+        self.content = hashlib.sha256(self.path.read_bytes()).hexdigest()[:12]
+
+
+class Results:
+    """What has been computed, kept from run to run."""
+
+    def __init__(self, trial):
+        self.trial = trial
+        self.folder = BUILD / "comparison" / ("trial" if trial else "")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.figures = self.folder if trial else ROOT / "docs" / "figures" / "comparison"
+        self.page = self.folder / "comparison.md" if trial else ROOT / "docs" / "comparison.md"
+        self.seeds, self.counts = (SEEDS[:1], (250, 500)) if trial else (SEEDS, COUNTS)
+        self.points = 300 if trial else 2000
+        # The long strips of lamps near the contact shadow's ceiling make its light the noisiest.
+        rays, point_rays, size = ((2000, 4000), 2000, "128x128") if trial else ((65536, 131072), 16384, "256x256")
+        self.scenes = [Scene("cornell-box", size, rays[0], point_rays), Scene("atrium", "160x100" if trial else "320x200", rays[0], point_rays),
+                       Scene("contact-shadow", size, rays[1], 2 * point_rays)]
+        self.cornell = self.scenes[0]
+
+    def fixed_points(self, scene):
+        path = self.folder / f"points-{scene.name}-{scene.content}-{self.points}-{scene.point_rays}.txt"
+        if not path.exists():
+            subprocess.run([PROGRAM, "points", scene.path, scene.size, str(self.points), str(scene.point_rays), path], check=True)
+        return path
+
+    def measured(self, scene, rays, seed, variants, counts, pictures=None):
+        """The rows that `bench_figures equal` prints, from an earlier run if there was one."""
+        asked = [scene.size, str(seed), str(rays), ",".join(variants), ",".join(map(str, counts)), str(bool(pictures))]
+        key = hashlib.sha256(" ".join(asked).encode()).hexdigest()[:8]
+        path = self.folder / f"equal-{scene.name}-{scene.content}-{rays}-{seed}-{key}.jsonl"
+        if not path.exists():
+            command = [PROGRAM, "equal", scene.path, scene.size, str(seed), str(rays), self.fixed_points(scene), asked[3], asked[4]]
+            if pictures:
+                pictures.mkdir(parents=True, exist_ok=True)
+                command.append(pictures)
+            out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+            path.write_text(out)
+        return [json.loads(line) for line in path.read_text().splitlines()]
+
+    def errors(self, scene, rays, variants, counts):
+        """By variant and number of records: (mean RMSE in % over seeds, half the range over seeds, records, reference's noise)."""
+        rows = [row for seed in self.seeds for row in self.measured(scene, rays, seed, variants, counts)]
+        result = {}
+        for variant in variants:
+            for count in counts:
+                mine = [row for row in rows if row["variant"] == variant and row["wanted"] == count]
+                rmse = [100 * row["rmse"] for row in mine]
+                result[variant, count] = {"rmse": sum(rmse) / len(rmse), "spread": (max(rmse) - min(rmse)) / 2,
+                                          "records": sum(row["records"] for row in mine) / len(mine), "noise": 100 * mine[0]["noise"]}
+        return result
+
+
+def cell(entry, count):
+    text = f"{entry['rmse']:.2f} ± {entry['spread']:.2f}"
+    # No threshold gives as many, or as few.
+    return text if abs(entry["records"] / count - 1) < 0.05 else f"{text} ({entry['records']:.0f})"
+
+
+def comparison(results, scene, rays, variants):
+    errors = results.errors(scene, rays, variants, results.counts)
+    rows = [[variant] + [cell(errors[variant, count], count) for count in results.counts] for variant in variants]
+    noise = errors[variants[0], results.counts[0]]["noise"]
+    strata = noise * (2 * scene.point_rays / rays) ** 0.5
+    return (f"### {scene.name}, {scene.size}, {rays:,} rays a record\n\n" + table(["RMSE %, by records"] + [f"{count:,}" for count in results.counts], rows) +
+            f"\n\nNoise: of the references {noise:.2f} % (taken out), of a record's own value about {strata:.2f} % (in all numbers, less where "
+            "several records overlap).\n")
+
+
+def methods(results):
+    """Every preset on three scenes, with near-exact records and with the default number of rays."""
+    parts = ["## 2. All methods at equal numbers of records\n"]
+    for scene in results.scenes:
+        for rays in (scene.exact_rays, 800):
+            parts.append(comparison(results, scene, rays, PRESETS + PARTS))
+    for scene in results.scenes:
+        parts.append(sheet_of_records(results, scene, PRESETS, results.counts[1], 4))
+    return "\n".join(parts)
+
+
+def sheet_of_records(results, scene, variants, count, columns):
+    folder = results.folder / f"records-{scene.name}-{scene.size}"
+    rows = results.measured(scene, 800, results.seeds[0], variants, [count], folder)
+    cells = [(f"{row['variant']}: {100 * row['rmse']:.2f} %", png.read(folder / f"{row['variant']}-{count}.png")) for row in rows]
+    path = results.figures / f"records-{scene.name}-{count}.png"
+    png.sheet(path, [cells[i:i + columns] for i in range(0, len(cells), columns)])
+    return (f"{count:,} records in {scene.name}, 800 rays each; a dot where a record lies, the rim of its footprint coloured by radius; above it the RMSE:\n\n"
+            f"![records of each method]({path.relative_to(results.page.parent)})\n")
+
+
+def gradients(results):
+    """The split sphere's records without gradients, with the surface-area form's, with stratified ones and with swept edges'."""
+    variants = ("ward1988", "ward1988+estimator=surface-area+order=1", "ward1988+estimator=ward-heckbert-exact+order=1",
+                "ward1988+estimator=swept-edges+order=1")
+    parts = ["## 3. Gradients\n\nThe same records, placed by the split sphere: extrapolated by nothing (`ward1988`), by gradients in surface-area "
+             "form, by stratified gradients, and by swept edges.\n"]
+    for scene in results.scenes:
+        for rays in (scene.exact_rays, 800):
+            parts.append(comparison(results, scene, rays, variants))
+    return "\n".join(parts)
+
+
+def record_pictures(results):
+    count, size = (500, "128x128") if results.trial else (1700, "384x384")
+    scene = Scene("cornell-box", size, results.cornell.exact_rays, results.cornell.point_rays)
+    text = sheet_of_records(results, scene, ("ward1992", "bounded", "schwarzhaupt2012", "swept"), count, 2)
+    return f"## 4. Where {count:,} records go: split sphere against Hessian\n\n" + text
