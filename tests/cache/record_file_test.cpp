@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where things lie in a file: magic, version, scene, length of the settings, settings, count, records, checksum.
-constexpr std::size_t settings_at = 24, record_bytes = 222;
+constexpr std::size_t settings_at = 24, record_bytes = 230;
 
 class RecordFileTest : public testing::Test {
  protected:

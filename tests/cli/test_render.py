@@ -77,7 +77,7 @@ class Outputs(ProgramTest):
         self.assertGreater(first["records"], 20)
         self.assertGreaterEqual(again["records"], first["records"])
         self.assertLessEqual(again["records"], 1.02 * first["records"])
-        self.assertLess(again["rays"]["gather"], 0.02 * first["rays"]["gather"])
+        self.assertLess(again["rays"]["gather"], 0.02 * first["rays"]["gather"] + 64 * 50)  # a survey, and next to nothing
         whole = (self.folder / "records").read_bytes()
         self.done("render", BOX, *quick("--load-cache", "records", "--save-cache", "./records", "--stats", "s.json"))
         self.assertGreaterEqual(len((self.folder / "records").read_bytes()), len(whole))
@@ -120,8 +120,8 @@ class Statistics(ProgramTest):
         self.assertEqual(stats["error"], {"asked": 0.05, "points": 0})
 
     def test_a_number_of_records(self):
-        stats = self.stats(BOX, *quick("--size", "64x64", "--records", "300", "--no-check"))
-        self.assertLess(abs(stats["records"] - 300), 15)
+        stats = self.stats(BOX, *quick("--size", "64x64", "--records", "800", "--no-check"))
+        self.assertLess(abs(stats["records"] - 800), 40)
 
     def test_the_closing_words_on_the_error(self):
         # Met; not met; and asked for less than the measurement's own noise.

