@@ -1,7 +1,7 @@
 """A small chart as SVG."""
 import math
 
-COLOURS = ("#666666", "#1b6ca8", "#aaaaaa", "#c1440e", "#2a7f3e", "#7a3e9d")
+COLOURS = ("#666666", "#1b6ca8", "#aaaaaa", "#c1440e", "#2a7f3e", "#7a3e9d", "#b08900", "#008b8b", "#d4669a", "#333333")
 WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM = 640, 400, 70, 36, 170, 50
 
 

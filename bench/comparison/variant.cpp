@@ -21,7 +21,7 @@ void change(Method& method, const std::string& key, const std::string& value) {
   else if (key == "weight")
     settings.falloff = value == "ward" ? Falloff::ward : Falloff::tent;
   else if (key == "neighbours")
-    settings.bounds.neighbours = value == "on";
+    settings.bounds.neighbours = std::stof(value);
   else
     throw UsageError("a variant knows no '" + key + "'");
 }

@@ -268,7 +268,7 @@ TEST(InFront, AStepDownIsRefusedBeyondAPartOfTheRadius) {
 // Settling shrinks footprints under the index's feet: it goes on finding all, and building it anew changes no result.
 TEST(RecordCache, SettlingAndReindexingKeepEveryResult) {
   RandomPlaces random(41);
-  const RadiusBounds bounds{.neighbours = true};
+  const RadiusBounds bounds{.neighbours = 1};
   RecordCache cache(room);
   for (int i = 0; i < 1500; ++i) {
     Record r = round_record(random.point({0, 0, 0}, {4, 3, 0}), random.direction_near(up, 0.2f), 1, 1);

@@ -59,7 +59,7 @@ inline Jet<Rgb> jet_of(float harmonic_mean, Rgb value = Rgb(1), Gradient<Rgb> gr
 /// What the metric's records do to each other.
 inline void settle_bounded(const Settling& settling, std::span<const std::uint32_t> fresh, float a,
                            const RadiusBounds& bounds) {
-  settle(settling, fresh, {.scale = split_sphere_radius(1, a), .neighbours = bounds.neighbours});
+  settle(settling, fresh, {.scale = split_sphere_radius(1, a), .slope = bounds.neighbours});
 }
 
 }  // namespace isophote::test

@@ -72,7 +72,7 @@ TEST(BoundedSplitSphere, Precedence) {
 }
 
 TEST(BoundedSplitSphere, BlackAndOpenPlacesAndNoPixelsGivePositiveFootprints) {
-  const RadiusBounds every{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = true};
+  const RadiusBounds every{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = 1};
   const Gradient<Rgb> steep{Rgb(1), Rgb(), Rgb()};
   for (const View& v : {view, View{.pixel = 0, .scene_scale = 10}})
     for (const RadiusBounds& bounds : {RadiusBounds{}, RadiusBounds{.gradient = true}, every})
@@ -118,7 +118,7 @@ void settle_in_batches(std::vector<Record>& records, std::size_t batch, const Ra
 // Among records that all face alike the outcome is the minimum over all of R_j + |x_i - x_j|: the bound holds for every
 // pair, no radius grew, none shrank more than it must, and neither order nor batches matter.
 TEST(NeighbourClamping, IsTheLargestLipschitzRadii) {
-  const RadiusBounds bounds{.neighbours = true};
+  const RadiusBounds bounds{.neighbours = 1};
   const std::vector<Record> before = scattered(300, 0.5f, bounds);
   for (const bool reversed : {false, true})
     for (const std::size_t batch : {1, 37, 300}) {
@@ -145,7 +145,7 @@ TEST(NeighbourClamping, IsTheLargestLipschitzRadii) {
 
 // With normals all round, a pair is held to the bound from the moment the later one is settled.
 TEST(NeighbourClamping, FreshRecordsAndTheirNeighboursKeepTheBound) {
-  const RadiusBounds bounds{.neighbours = true};
+  const RadiusBounds bounds{.neighbours = 1};
   const std::vector<Record> before = scattered(200, 100, bounds);
   std::vector<Record> records = before;
   NeighbourIndex neighbours({{0, 0, 0}, {4, 4, 1}});
@@ -164,18 +164,18 @@ TEST(NeighbourClamping, FreshRecordsAndTheirNeighboursKeepTheBound) {
 TEST(NeighbourClamping, LeavesRecordsThatFaceAwayAndWhoeverDidNotAsk) {
   std::vector<Record> back_to_back{round_record({0, 0, 0}, {0, 0, 1}, 1),
                                    round_record({0.1f, 0, 0}, {0, 0, -1}, 0.01f)};
-  settle_in_batches(back_to_back, 1, {.neighbours = true});
+  settle_in_batches(back_to_back, 1, {.neighbours = 1});
   EXPECT_EQ(back_to_back[0].footprint.unscaled, 1);
   std::vector<Record> alike = back_to_back;
   alike[1].normal = {0, 0, 1};
   settle_in_batches(alike, 1, {});
   EXPECT_EQ(alike[0].footprint.unscaled, 1);
-  settle_in_batches(alike, 1, {.neighbours = true});
+  settle_in_batches(alike, 1, {.neighbours = 1});
   EXPECT_FLOAT_EQ(alike[0].footprint.unscaled, 0.11f);
 }
 
 TEST(NeighbourClamping, KeepsTheLowerBoundAndTheLimitOnGradients) {
-  const RadiusBounds bounds{.min_pixels = 10, .neighbours = true};
+  const RadiusBounds bounds{.min_pixels = 10, .neighbours = 1};
   std::vector<Record> records = scattered(200, 0.5f, bounds);
   settle_in_batches(records, 20, bounds);
   for (const Record& r : records) {
@@ -217,7 +217,7 @@ TEST(BoundedSplitSphere, ScalesExactly) {
                         .min_length = 0.03f,
                         .max_length = 0.6f,
                         .gradient = true,
-                        .neighbours = true};
+                        .neighbours = 1};
     std::vector<Record> unit = scattered(200, 2, bounds), scaled = unit;
     const View far_view{.pixel = view.pixel * s, .scene_scale = view.scene_scale * s};
     RadiusBounds far_bounds = bounds;

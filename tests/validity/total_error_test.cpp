@@ -151,11 +151,22 @@ TEST(LipschitzClamping, HoldsForEveryPair) {
   NeighbourIndex neighbours({{0, 0, 0}, {4, 4, 1}});
   for (std::uint32_t i = 0; i < 300; ++i) {
     records.push_back(round_record(random.point({0, 0, 0}, {4, 4, 1}), up, std::pow(10.0f, random.number(-2, 0.5f))));
-    settle({records, neighbours}, {&i, 1}, {.neighbours = true, .slope = 0.5f});
+    settle({records, neighbours}, {&i, 1}, {.slope = 0.5f});
   }
   for (const Record& a : records)
     for (const Record& b : records)
       EXPECT_LE(a.footprint.radius, b.footprint.radius + 0.5f * length(a.position - b.position) + 1e-5f);
+}
+
+// Raised by a lower bound, an ellipse stays one along the surface, and ends at its height off it.
+TEST(TotalError, ARaisedEllipseStaysAnEllipse) {
+  const Vec3 n{0, 0, 1};
+  Footprint f = Footprint::disk(2, 1);
+  f.shape = Sym3(0.25f, 0, 0, 1, 0, 1);
+  f.flatten(n, 0.5f);
+  EXPECT_FLOAT_EQ(quadratic_form(f.shape, Vec3{2, 0, 0}), 1);
+  EXPECT_FLOAT_EQ(quadratic_form(f.shape, Vec3{0, 1, 0}), 1);
+  EXPECT_FLOAT_EQ(quadratic_form(f.shape, Vec3{0, 0, 0.5f}), 1);
 }
 
 }  // namespace

@@ -108,8 +108,8 @@ constexpr Option table[] = {
      [](S& s, T t) { s.max_radius = number<float>(t, 0, 1e30); }, true},
     {"method", "bound-gradient", "on|off", "bound radii by the relative gradient",
      [](S& s, T t) { s.bound_gradient = on_off(t); }, true},
-    {"method", "bound-neighbours", "on|off", "bound radii by those of neighbours",
-     [](S& s, T t) { s.bound_neighbours = on_off(t); }, true},
+    {"method", "bound-neighbours", "off|SLOPE", "bound radii by those of neighbours plus SLOPE times their distance",
+     [](S& s, T t) { s.bound_neighbours = t == "off" ? 0 : number<float>(t, 0, 1e6); }, true},
     {"method", "extrapolate", "0|1|2", "by values alone, gradients, or the Hessian too (default: the method's)",
      [](S& s, T t) { s.extrapolate = number<int>(t, 0, 2); }, true},
     {"method", "aspect", "N", "of elliptical footprints at most; 1: disks",
@@ -203,7 +203,7 @@ std::string describe(const RadiusBounds& b) {
   if (b.min_length > 0) add(fmt::format("at least {:g} scene units", b.min_length));
   if (b.max_length < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} scene units", b.max_length));
   if (b.gradient) add("gradient");
-  if (b.neighbours) add("neighbours");
+  if (b.neighbours > 0) add(fmt::format("neighbours at slope {:g}", b.neighbours));
   return text.empty() ? "none" : text;
 }
 

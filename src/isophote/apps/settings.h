@@ -23,7 +23,8 @@ struct RenderSettings {
   std::optional<bool> secondary, leak_test;
   bool lazy = false;
   std::optional<float> min_pixels, max_pixels, min_view, max_view, min_radius, max_radius;
-  std::optional<bool> bound_gradient, bound_neighbours;
+  std::optional<bool> bound_gradient;
+  std::optional<float> bound_neighbours;
   std::optional<int> extrapolate;
   std::optional<float> aspect;
   std::optional<Falloff> weight;

@@ -37,7 +37,7 @@ constexpr Estimator estimator_table[] = {
 };
 
 void settle_by(const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings& s, float scale) {
-  settle(settling, fresh, {.scale = scale, .neighbours = s.bounds.neighbours});
+  settle(settling, fresh, {.scale = scale, .slope = s.bounds.neighbours});
 }
 
 float split_sphere_scale(const MetricSettings& s) { return split_sphere_radius(1, s.a); }
@@ -94,9 +94,9 @@ constexpr const Metric &split = row(metric_table, "split-sphere"), &bounded = ro
                        &total = row(metric_table, "total-error"), &one_radius = row(metric_table, "uniform");
 
 constexpr float any_aspect = std::numeric_limits<float>::infinity();
-const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = true};
-const RadiusBounds cached_preset{.min_pixels = 1.5f, .max_view = 1 / 16.0f};
-const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = true};
+const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = 1};
+const RadiusBounds cached_preset{.min_pixels = 1.5f, .max_view = 1 / 16.0f, .neighbours = 1};
+const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = 1};
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.
 const Method method_table[] = {

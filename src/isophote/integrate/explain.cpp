@@ -32,7 +32,7 @@ class Reaches {
     const float by_gradient = wanted(record, {.gradient = method_.settings.bounds.gradient});
     reach.natural = alone * scale_;
     reach.gradient = by_gradient < alone * (1 - about_equal);
-    reach.neighbours = method_.settings.bounds.neighbours && unscaled < by_gradient * (1 - about_equal);
+    reach.neighbours = method_.settings.bounds.neighbours > 0 && unscaled < by_gradient * (1 - about_equal);
     reach.raised = radius > unscaled * scale_ * (1 + about_equal);
     reach.lowered = radius < unscaled * scale_ * (1 - about_equal);
     reach.gradient_kept = order > 0 ? record.gradient_scale : 0;

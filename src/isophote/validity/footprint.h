@@ -43,10 +43,9 @@ struct Footprint {
     if (falloff == Falloff::tabellion) normal_scale = 1 / std::sqrt(1 - std::cos(std::numbers::pi_v<float> / 18));
   }
 
-  /// Makes the region of a disk thinner along the unit vector n, where it then ends at `height` <= radius.
+  /// Has the region end at `height` along the unit vector n, which is one of its axes; across it stays as it is.
   void flatten(const Vec3& n, float height) {
-    const float base = 1 / (radius * radius);
-    shape = Sym3::scaled_identity(base) + Sym3::outer(n, 1 / (height * height) - base);
+    shape = shape + Sym3::outer(n, 1 / (height * height) - quadratic_form(shape, n));
   }
 
   /// Scales the region so that its radius is `wanted`, or the nearest of its bounds.

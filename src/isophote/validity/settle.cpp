@@ -44,7 +44,7 @@ void clamp_to_neighbours(const Settling& settling, std::uint32_t fresh, const Se
 
 void settle(const Settling& settling, std::span<const std::uint32_t> fresh, const SettleRule& rule) {
   for (const std::uint32_t id : fresh) {
-    if (rule.neighbours) {
+    if (rule.slope > 0) {
       while (settling.neighbours.size() < id) settling.neighbours.insert(settling.records);
       clamp_to_neighbours(settling, id, rule);
     }

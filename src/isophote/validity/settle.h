@@ -6,9 +6,9 @@ namespace isophote {
 
 /// How radii follow from unscaled ones, and what neighbours ask of each other.
 struct SettleRule {
-  float scale = 1;          ///< the metric's radius over the unscaled one
-  bool neighbours = false;  ///< R_i <= R_j + slope |x_i - x_j| on the unscaled radii of records that face alike
-  float slope = 1;          ///< 1 [Krivanek 2006]; with less, the edges of a room take most records
+  float scale = 1;  ///< the metric's radius over the unscaled one
+  float slope = 0;  ///< R_i <= R_j + slope |x_i - x_j| on the unscaled radii of records that face alike: 1 for
+                    ///< distances [Krivanek 2006]; 0: no such bound
 };
 
 /// What records do to each other and to themselves once inserted: neighbour clamping, where asked; and where a lower
