@@ -160,6 +160,20 @@ def rays():
             table(["scene", "part", "million rays a CPU second", "% of bare"], rows))
 
 
+def estimators():
+    """What each estimator costs beside its gather."""
+    rows = []
+    for view in (CORNELL, ATRIUM):
+        for number in (800, 3200):
+            out = subprocess.run([str(ROOT / "build" / "release" / "bench_estimators"), str(view.scene), str(number)], check=True, capture_output=True,
+                                 text=True)
+            for name, value in json.loads(out.stdout).items():
+                share = f"{100 * value['of_gather']:.1f}" if "of_gather" in value else ""
+                rows.append([view.name, number, name, f"{value['microseconds']:.0f}", share])
+    return ("## Cost of a record by estimator\n\nOne thread, 64 random places, medians of 7 rounds; the gather follows paths, and the share is paired "
+            "within each round:\n\n" + table(["scene", "rays", "part", "CPU microseconds a record", "% of the gather"], rows))
+
+
 def demo():
     """What scripts/demo takes once it is built."""
     before = time.monotonic()

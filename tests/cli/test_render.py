@@ -120,7 +120,7 @@ class Statistics(ProgramTest):
         self.assertEqual(stats["error"], {"asked": 0.05, "points": 0})
 
     def test_a_number_of_records(self):
-        stats = self.stats(BOX, *quick("--size", "64x64", "--records", "800", "--no-check"))
+        stats = self.stats(BOX, *quick("--size", "64x64", "--records", "800", "--rays", "200", "--no-check"))
         self.assertLess(abs(stats["records"] - 800), 40)
 
     def test_the_closing_words_on_the_error(self):
@@ -144,6 +144,22 @@ class Statistics(ProgramTest):
                          ("lazy", "bounded-split-sphere", "ward-heckbert-exact"))
         self.assertAlmostEqual(parameters["a"], 0.5)
         self.assertEqual((parameters["secondary"], stats["uncovered"]), (False, 0))
+
+    def test_rays_that_adapt(self):
+        coarse, fine = (self.stats(BOX, *quick("--rays", "auto", "--error", error)) for error in ("0.2", "0.02"))
+        self.assertEqual((coarse["parameters"]["gather"], coarse["refinements"]), ("auto", 0))
+        self.assertGreater(fine["rays"]["gather"] / fine["records"], 1.5 * coarse["rays"]["gather"] / coarse["records"])
+        self.assertLess(fine["error"]["mean"], coarse["error"]["mean"])
+        self.assertEqual(self.stats(BOX, *quick())["parameters"]["gather"], [4, 13])
+
+    def test_refinement(self):
+        # Few fixed rays leave more noise than is asked for: threshold and rounds alone cannot mend that, but are worked on.
+        stats = self.stats(BOX, *quick("--error", "0.01", "--refine", "2"))
+        self.assertEqual(stats["refinements"], 2)
+        self.assertLess(stats["parameters"]["a"], 0.01)
+        self.assertIn("after 1 refinement ", self.done("render", BOX, *quick("--error", "0.01", "--refine", "1", "-o", "a.exr")).stdout)
+        met = self.stats(BOX, *quick("--error", "1", "--refine", "3"))
+        self.assertEqual(met["refinements"], 0)
 
     def test_leak_test(self):
         for flags, tested in (((), True), (("--leak-test", "off"), False), (("--method", "bounded"), False)):

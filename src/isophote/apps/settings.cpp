@@ -69,7 +69,7 @@ constexpr Option table[] = {
     {"method", "metric", "NAME", "another metric than the method's", [](S& s, T t) { s.metric = find_metric(t).name; },
      true},
     {"method", "error", "E",
-     "wanted mean relative error of the cached irradiance (default: 0.02); decides the threshold; method path "
+     "wanted mean relative error of the cached irradiance (default: 0.05); decides the threshold; method path "
      "ignores it",
      [](S& s, T t) { s.error = number<double>(t, 1e-5, 10), s.a.reset(), s.records.reset(); }},
     {"method", "a", "A", "the metric's own threshold, in place of --error",

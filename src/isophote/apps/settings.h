@@ -33,7 +33,7 @@ struct RenderSettings {
 };
 
 /// Wanted mean relative error where neither an error, a threshold nor a number of records is given.
-inline constexpr double default_error = 0.02;
+inline constexpr double default_error = 0.05;
 /// Rays of a record where they do not adapt and no number is given.
 inline constexpr int default_rays = 800;
 

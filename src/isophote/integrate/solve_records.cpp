@@ -13,6 +13,17 @@ const double least_log_a = std::log(1e-3), greatest_log_a = std::log(static_cast
 constexpr int most_tries = 10;
 constexpr double close_enough = 0.02;
 
+struct Try {
+  double log_a, log_records;
+};
+
+/// By which power of the threshold the number of records falls: as between the last two tries, within reason.
+double steepness(const std::optional<Try>& last, const Try& now) {
+  constexpr double usual = 1.7, least = 0.2, most = 2.5;
+  if (!last || last->log_a == now.log_a) return usual;
+  return std::clamp((last->log_records - now.log_records) / (now.log_a - last->log_a), least, most);
+}
+
 }  // namespace
 
 Solved build_with_records(Job& asked, std::size_t wanted) {
@@ -21,9 +32,7 @@ Solved build_with_records(Job& asked, std::size_t wanted) {
   Job job = asked;
   if (!job.memo && !job.method.secondary && !job.method.adaptive)
     job.memo = &memo.emplace(std::vector{job.method.estimator});
-  struct Try {
-    double log_a, log_records;
-  };
+  std::optional<Try> previous;
   std::optional<Try> above, below;  // the nearest with too many records and with too few
   std::optional<Solved> best;
   double best_miss = 0, log_a = std::log(job.method.settings.a), last_log_a = 0;
@@ -51,7 +60,8 @@ Solved build_with_records(Job& asked, std::size_t wanted) {
       log_a = above->log_a +
               (below->log_a - above->log_a) * (above->log_records - target) / (above->log_records - below->log_records);
     else
-      log_a += 0.6 * (log_records - target);  // records grow about as a^-1.7
+      log_a += (log_records - target) / steepness(previous, {log_a, log_records});
+    previous = Try{last_log_a, log_records};
   }
   asked.method.settings.a = best_a;
   best->report.rays = rays;
