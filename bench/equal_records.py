@@ -14,6 +14,11 @@ PRESETS = ("ward1988", "ward1992", "bounded", "jarosz2012", "schwarzhaupt2012", 
 PARTS = ("swept+order=1", "swept+aspect=1", "swept+aspect=1+order=1", "uniform+order=2")
 
 
+# What was computed by other sources is no result of these.
+SOURCES = subprocess.run(["git", "rev-parse", "--short", "HEAD:src", "HEAD:bench/comparison"], cwd=ROOT, capture_output=True, text=True,
+                         check=True).stdout.strip().replace("\n", "-")
+
+
 class Scene:
     """`exact_rays` make a record's own noise small beside the errors compared; scenes differ in how much their light varies."""
 
@@ -28,8 +33,9 @@ class Results:
 
     def __init__(self, trial):
         self.trial = trial
-        self.folder = BUILD / "comparison" / ("trial" if trial else "")
+        self.folder = BUILD / "comparison" / SOURCES / ("trial" if trial else "")
         self.folder.mkdir(parents=True, exist_ok=True)
+        self.parts = BUILD / "comparison" / ("trial-parts" if trial else "parts")
         self.figures = self.folder if trial else ROOT / "docs" / "figures" / "comparison"
         self.page = self.folder / "comparison.md" if trial else ROOT / "docs" / "comparison.md"
         self.seeds, self.counts = (SEEDS[:1], (250, 500)) if trial else (SEEDS, COUNTS)

@@ -128,7 +128,7 @@ def asked():
             cells += 1
             within += 1 / 1.5 <= e["mean"] / wanted <= 1.5
             rows.append([name, wanted, f"{e['mean']:.4f}", f"{e['mean'] / wanted:.2f}", f"{e['median']:.4f}", f"{e['p95']:.3f}", f"{e['noise']:.4f}",
-                         e["points"], stats["records"], round(stats["rays"]["gather"] / max(1, stats["records"])), f"{cost(stats):.1f}"])
+                         e["points"], stats["records"], round(stats["parameters"]["rays_in_the_mean"]), f"{cost(stats):.1f}"])
         series[name] = curve
     series["asked"] = [(x, x) for x in (ASKED[-1], ASKED[0])]
     log_log(ROOT / "docs" / "figures" / "asked-measured.svg", "measured over asked error", "asked", "measured mean", series)

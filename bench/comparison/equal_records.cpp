@@ -55,7 +55,7 @@ void compare_at_equal_records(Job job, const std::vector<FixedPoint>& points, co
       const Clock begin = Clock::now();
       job.method.settings.a = sketch.threshold(job.method, wanted);
       const Solved solved = build_with_records(job, wanted);
-      const PointErrors e = point_errors(points, solved.cache);
+      const PointErrors e = point_errors(job.world, points, solved.cache);
       fmt::print(
           "{{\"variant\": \"{}\", \"wanted\": {}, \"records\": {}, \"a\": {}, \"rmse\": {}, \"mean\": {}, "
           "\"bias\": {}, \"noise\": {}, \"points\": {}, \"uncovered\": {}, \"cpu_seconds\": {}}}\n",

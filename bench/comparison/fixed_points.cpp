@@ -11,6 +11,7 @@
 #include "isophote/core/error.h"
 #include "isophote/integrate/build.h"
 #include "isophote/integrate/gather.h"
+#include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
 
 namespace isophote::bench {
@@ -66,11 +67,12 @@ std::vector<FixedPoint> read_points(const std::string& path) {
   return points;
 }
 
-PointErrors point_errors(const std::vector<FixedPoint>& points, const RecordCache& cache) {
+PointErrors point_errors(const World& world, const std::vector<FixedPoint>& points, const RecordCache& cache) {
   PointErrors errors;
+  RayCounts counts;
   double squares = 0, noise = 0, reference = 0;
   for (const FixedPoint& p : points) {
-    const auto cached = cache.interpolate({p.position, p.normal, p.normal});
+    const auto cached = cache.interpolate({p.position, p.normal, p.normal}, LeakTest{world, counts});
     if (!cached) {
       ++errors.uncovered;
       continue;

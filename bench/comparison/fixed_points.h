@@ -29,6 +29,6 @@ struct PointErrors {
   double noise = 0;                       ///< root mean square error of the references themselves
   std::size_t points = 0, uncovered = 0;  ///< uncovered ones are in no other number
 };
-PointErrors point_errors(const std::vector<FixedPoint>& points, const RecordCache& cache);
+PointErrors point_errors(const World& world, const std::vector<FixedPoint>& points, const RecordCache& cache);
 
 }  // namespace isophote::bench

@@ -6,6 +6,13 @@
 namespace isophote::bench {
 namespace {
 
+Falloff falloff(const std::string& value) {
+  if (value == "ward") return Falloff::ward;
+  if (value == "tent") return Falloff::tent;
+  if (value == "tabellion") return Falloff::tabellion;
+  throw UsageError("a variant knows no weight '" + value + "'");
+}
+
 void change(Method& method, const std::string& key, const std::string& value) {
   MetricSettings& settings = method.settings;
   if (key == "estimator")
@@ -19,7 +26,7 @@ void change(Method& method, const std::string& key, const std::string& value) {
   else if (key == "min-pixels")
     settings.bounds.min_pixels = std::stof(value);
   else if (key == "weight")
-    settings.falloff = value == "ward" ? Falloff::ward : Falloff::tent;
+    settings.falloff = falloff(value);
   else if (key == "neighbours")
     settings.bounds.neighbours = std::stof(value);
   else

@@ -7,7 +7,7 @@
 namespace isophote::bench {
 
 /// A method to compare: the name of a preset, then any of +estimator=NAME +metric=NAME +order=N +aspect=X +min-pixels=X
-/// +weight=ward|tent +neighbours=SLOPE. Secondary caching is off: all are given the same gathers.
+/// +weight=ward|tent|tabellion +neighbours=SLOPE. Secondary caching is off: all are given the same gathers.
 Method variant(const std::string& text);
 
 }  // namespace isophote::bench

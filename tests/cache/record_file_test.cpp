@@ -17,8 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where things lie in a file: magic, version, scene, length of the settings, settings, count, records, checksum.
-constexpr std::size_t settings_at = 24, record_bytes = 230;
+/// Where things lie in a file: magic, version, scene, length of the settings, settings, survey, count, records,
+/// checksum.
+constexpr std::size_t settings_at = 24, survey_bytes = 13, record_bytes = 230;
 
 class RecordFileTest : public testing::Test {
  protected:
@@ -32,7 +33,7 @@ class RecordFileTest : public testing::Test {
 
   static RecordFile sample(int count) {
     RandomPlaces random(17);
-    RecordFile file{0x0123456789abcdefull, "method=bounded\na=0.2\nseed=7\n", {}};
+    RecordFile file{0x0123456789abcdefull, "method=bounded\na=0.2\nseed=7\n", {true, 0.5f, 2, 3}, {}};
     for (int i = 0; i < count; ++i) {
       Record r = round_record(random.point({-5, -5, -5}, {5, 5, 5}), random.direction(), random.number(0.1f, 1), 5);
       r.footprint.shape.xx *= 1.5f, r.footprint.shape.yy *= 1.5f;
@@ -89,6 +90,7 @@ TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
     const RecordFile back = read_records(path_);
     EXPECT_EQ(back.scene, file.scene);
     EXPECT_EQ(back.settings, file.settings);
+    EXPECT_EQ(back.pilot, file.pilot);
     ASSERT_EQ(back.records.size(), file.records.size());
     for (std::size_t i = 0; i < file.records.size(); ++i) {
       const Record &a = file.records[i], &b = back.records[i];
@@ -106,13 +108,16 @@ TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
       EXPECT_EQ(a.curvature_scale, b.curvature_scale);
       EXPECT_EQ(a.jet.hessian, b.jet.hessian);
       EXPECT_EQ(a.jet.value, b.jet.value);
+      EXPECT_EQ(a.jet.standard_error, b.jet.standard_error);
+      EXPECT_EQ(a.jet.rays, b.jet.rays);
       EXPECT_EQ(a.jet.translational, b.jet.translational);
       EXPECT_EQ(a.jet.rotational, b.jet.rotational);
       EXPECT_EQ(a.jet.distances.harmonic_mean, b.jet.distances.harmonic_mean);
       EXPECT_EQ(a.jet.distances.obstacles, b.jet.distances.obstacles);
     }
     const std::string first = bytes();
-    EXPECT_EQ(first.size(), settings_at + file.settings.size() + 16 + record_bytes * static_cast<std::size_t>(count));
+    EXPECT_EQ(first.size(),
+              settings_at + file.settings.size() + survey_bytes + 16 + record_bytes * static_cast<std::size_t>(count));
     write_records(path_, back);
     EXPECT_EQ(bytes(), first);
   }
@@ -156,7 +161,7 @@ TEST_F(RecordFileTest, WrongLengthsWithARightChecksumAreRefused) {
   const RecordFile file = sample(3);
   write_records(path_, file);
   const std::string whole = bytes();
-  const std::size_t count_at = settings_at + file.settings.size();
+  const std::size_t count_at = settings_at + file.settings.size() + survey_bytes;
   for (const std::uint64_t count :
        {0ull, 2ull, 4ull, 1ull << 32, 0xffffffffffffffffull, 0xffffffffffffffffull / record_bytes + 4}) {
     std::string crafted = whole;
@@ -254,10 +259,10 @@ TEST_F(RecordFileTest, HugeFilesAreRefusedAtOnce) {
   std::string counting = head;
   put_integer(counting, settings_at - 4, 0, 4);
   const std::uint64_t count = (1ull << 40) / record_bytes;
-  counting.resize(settings_at + 8);
-  put_integer(counting, settings_at, count, 8);
+  counting.resize(settings_at + survey_bytes + 8);
+  put_integer(counting, settings_at + survey_bytes, count, 8);
   put(counting);
-  fs::resize_file(path_, settings_at + 16 + record_bytes * count);
+  fs::resize_file(path_, settings_at + survey_bytes + 16 + record_bytes * count);
   EXPECT_EQ(refusal(), "record 0 is malformed");
 }
 

@@ -31,7 +31,8 @@ TEST(Explain, SharesMakeUpTheValue) {
     job.strata = Strata::about(100);
     job.pilot = pilot_of(job);
     const Rendered rendered = render_all(job);
-    const RecordMaps maps = record_maps(job, rendered.cache);
+    RayCounts rays;
+    const RecordMaps maps = record_maps(job, rendered.cache, rays);
     const RgbImage direct = rendered.layer("direct"), indirect = rendered.layer("indirect");
     int explained = 0;
     for (int i = 0; i < 48 * 48; i += 37) {

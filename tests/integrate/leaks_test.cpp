@@ -88,9 +88,8 @@ TEST(SlowLeaks, UnderThePlateBesideSunlitGround) {
                             "plate in the sun", 8);
 }
 
-/// Records of the bright room are there too, up to 2 cm away, as when one cache serves a walk through both: the radius
-/// floor of `cached`, a part of the picture's height, reaches across the wall, and it is the leak test alone that keeps
-/// the dark room dark.
+/// Records of the bright room are there too, up to 2 cm away, as when one cache serves a walk through both:
+/// footprints reach across the wall, and it is the leak test alone that keeps the dark room dark.
 TEST(Leaks, TheDarkRoomStaysDarkAmongTheBrightOnesRecords) {
   const Stage stage("thin-wall.glb");
   const auto mean = [&](bool leak_test) {

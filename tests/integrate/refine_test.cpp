@@ -24,7 +24,7 @@ Refined refine_once(const Stage& stage, int threads) {
   job.pilot = built.pilot;
   r.before = check_points(job, r.first, 4000000);
   r.second = r.first;
-  job.method.settings.a = refined_threshold(job.method, 4 * job.method.error());
+  job.method.settings.a = refined_threshold(job.method, 0.1, 0.4);
   r.report = refine(job, r.second, built.places);
   r.after = check_points(job, r.second, 4000000, 1);
   return r;
@@ -59,8 +59,9 @@ TEST(Refine, DoesNotDependOnThreads) {
 
 TEST(Refine, TheThresholdFollowsTheMeasuredError) {
   const Method m = method("cached", 0.1);
-  EXPECT_NEAR(refined_threshold(m, 0.2), 0.45f * m.settings.a, 1e-6);
-  EXPECT_NEAR(refined_threshold(m, 10), 0.25f * m.settings.a, 1e-6);
+  EXPECT_NEAR(refined_threshold(m, 0.1, 0.2), 0.45f * m.settings.a, 1e-6);
+  EXPECT_NEAR(refined_threshold(m, 0.02, 0.04), 0.45f * m.settings.a, 1e-6);  // of what is asked, not of the last turn
+  EXPECT_NEAR(refined_threshold(m, 0.1, 10), 0.25f * m.settings.a, 1e-6);
 }
 
 }  // namespace

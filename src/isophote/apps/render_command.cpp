@@ -81,6 +81,8 @@ class Rendering {
       final_pass(&cache, film);
     }
     statistics_.records = cache.records().size();
+    for (const Record& record : cache.records())
+      statistics_.record_rays += static_cast<double>(record.jet.rays) / static_cast<double>(cache.records().size());
     if (!request_.save_cache.empty()) session_.save(cache, request_.save_cache);
     show(cache);
     if (request_.check && !measured_ && !statistics_.cancelled) check(cache);
@@ -98,7 +100,9 @@ class Rendering {
                  scale);
     }
     if (!wants_maps()) return;
-    maps_ = record_maps(job(), cache);
+    const Clock begin = Clock::now();
+    maps_ = record_maps(job(), cache, statistics_.rays);
+    statistics_.time.final += Clock::now() - begin;
     show(request_.error_picture, "predicted relative error", maps_.error, false);
     show(request_.density_picture, "records per square metre", maps_.density, true);
   }
@@ -125,10 +129,10 @@ class Rendering {
     int& turn = statistics_.refinements;
     for (; turn < request_.refine && !statistics_.cancelled; ++turn) {
       check(cache);
-      const MeasuredError& error = statistics_.error;
-      if (statistics_.cancelled || error.points == 0 || error.mean <= settings_.error.value_or(default_error)) return;
+      const double asked = settings_.error.value_or(default_error);
+      if (statistics_.cancelled || !statistics_.error.exceeds(asked)) return;
       const Clock begin = Clock::now();
-      job().method.settings.a = refined_threshold(job().method, error.mean);
+      job().method.settings.a = refined_threshold(job().method, asked, statistics_.error.mean);
       added(isophote::refine(job(), cache, places_));
       statistics_.time.build += Clock::now() - begin;
     }
@@ -149,7 +153,7 @@ class Rendering {
   void check(const RecordCache& cache) {
     display_.show("check", 0);
     const Clock begin = Clock::now();
-    measured_ = true;
+    measured_ = statistics_.checked = true;
     statistics_.error = check_points(job(), cache, build_rays_ / 5, statistics_.refinements);
     statistics_.cancelled = Interruptible::interrupted();
     statistics_.rays += statistics_.error.rays;
@@ -201,7 +205,8 @@ class Rendering {
     if (job.method.caches()) {
       s.estimator = job.method.estimator->name;
       s.metric = job.method.metric->name;
-      s.a = job.method.settings.a;
+      s.a = job.method.settings.a, s.aspect = job.method.settings.aspect;
+      s.survey = job.pilot;
       s.extrapolate = std::min(job.method.order, job.method.estimator->order);
       s.bounds = describe(job.method.settings.bounds);
     }

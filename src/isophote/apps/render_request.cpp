@@ -46,7 +46,9 @@ Files all_outputs(const RenderRequest& request) {
 void check_request(const RenderRequest& request) {
   if (request.outputs.empty() && request.stats.empty() && request.save_cache.empty() &&
       request.records_picture.empty() && request.error_picture.empty() && request.density_picture.empty())
-    throw UsageError("nothing to write: give -o FILE.exr or FILE.png (or --stats, --show-records, --save-cache)");
+    throw UsageError(
+        "nothing to write: give -o FILE.exr or FILE.png (or --stats, --show-records, --show-error, "
+        "--show-density, --save-cache)");
   for (const std::string& output : request.outputs)
     if (!output.ends_with(".exr") && !output.ends_with(".png"))
       throw UsageError(fmt::format("-o {}: the name must end in .exr or .png", output));
@@ -74,6 +76,8 @@ void check_against_method(const RenderRequest& request, const RenderSettings& se
     throw UsageError("--order lazy is one pass from the top: it takes no --preview");
   if (request.refine > 0) {
     if (!request.check) throw UsageError("--refine goes by the measured error: it takes no --no-check");
+    if (!request.load_cache.empty())
+      throw UsageError("--refine works on the records that this run makes: it takes no --load-cache");
     if (settings.a || settings.records || settings.lazy || !method.caches())
       throw UsageError(
           "--refine works towards an --error, with caches built in rounds: it takes no --a, --records, "

@@ -33,10 +33,10 @@ std::string record_settings(const Job& job) {
   const Method& m = job.method;
   const RadiusBounds& b = m.settings.bounds;
   return fmt::format(
-      "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmax-view={}\nmin-radius={}\n"
+      "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmax-view={}\nmin-radius={}\n"
       "max-radius={}\nbound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}\n"
       "secondary={}\nleak-test={}\nmax-depth={}\n",
-      m.estimator->name, m.metric->name, m.settings.a, b.min_pixels, b.max_pixels, b.min_view, b.max_view, b.min_length,
+      m.estimator->name, m.metric->name, m.settings.a, b.min_pixels, b.max_pixels, b.max_view, b.min_length,
       b.max_length, b.gradient, b.neighbours, m.settings.aspect, m.order,
       m.settings.falloff ? static_cast<int>(*m.settings.falloff) : -1,
       m.adaptive ? "auto" : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal), m.secondary, m.leak_test,
@@ -111,12 +111,13 @@ void Session::prepare() {
   job.progress.cancelled = Interruptible::interrupted;
 }
 
-RecordCache Session::starting_cache() const {
+RecordCache Session::starting_cache() {
   RecordCache cache = empty_cache(*job_);
   if (request_.load_cache.empty()) return cache;
   const RecordFile file = read_records(request_.load_cache);
   require_match(request_.load_cache, file, scene_hash(loaded_.scene), record_settings(*job_));
   for (const Record& record : file.records) cache.insert(record);
+  job_->pilot = file.pilot;
   return cache;
 }
 
@@ -134,8 +135,10 @@ BuildReport Session::build(RecordCache& cache) {
 }
 
 void Session::save(const RecordCache& cache, const std::string& path) const {
+  Job job = *job_;
+  if (!settings_.records) job.method = method_;  // as it was asked for: refinement lowers the threshold
   const auto records = cache.records();
-  write_records(path, {scene_hash(loaded_.scene), record_settings(*job_), {records.begin(), records.end()}});
+  write_records(path, {scene_hash(loaded_.scene), record_settings(job), job.pilot, {records.begin(), records.end()}});
 }
 
 }  // namespace isophote::app

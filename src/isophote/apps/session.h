@@ -39,7 +39,7 @@ class Session {
   Job& job() { return *job_; }
 
   /// The records of --load-cache, or none.
-  RecordCache starting_cache() const;
+  RecordCache starting_cache();
   /// Adds what the picture lacks; with --records, builds anew.
   BuildReport build(RecordCache& cache);
   void save(const RecordCache& cache, const std::string& path) const;

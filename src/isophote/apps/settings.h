@@ -22,7 +22,7 @@ struct RenderSettings {
   std::optional<int> max_depth, records;
   std::optional<bool> secondary, leak_test;
   bool lazy = false;
-  std::optional<float> min_pixels, max_pixels, min_view, max_view, min_radius, max_radius;
+  std::optional<float> min_pixels, max_pixels, max_view, min_radius, max_radius;
   std::optional<bool> bound_gradient;
   std::optional<float> bound_neighbours;
   std::optional<int> extrapolate;

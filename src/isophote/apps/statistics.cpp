@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "isophote/core/atomic_file.h"
@@ -20,9 +20,8 @@ void Statistics::print() const {
   if (cancelled) fmt::print("interrupted: the picture is not finished\n");
   fmt::print("{} x {} pixels, {} triangles, method {}\n", width, height, triangles, method);
   if (!estimator.empty()) {
-    const double mean_rays = static_cast<double>(rays.gather) / static_cast<double>(std::max<std::size_t>(records, 1));
     fmt::print("  records    {} ({}, {} order{}), {} of {} samples uncovered\n", records,
-               adaptive ? fmt::format("{:.0f} rays each in the mean", mean_rays)
+               adaptive ? fmt::format("{:.0f} rays each in the mean", record_rays)
                         : fmt::format("{} x {} rays each", strata.polar, strata.azimuthal),
                lazy ? "lazy" : "rounds", lazy ? "" : fmt::format(", {} rounds", rounds), uncovered, samples);
     fmt::print("  threshold  a = {}, estimator {}, metric {}, secondary {}, leak test {}\n", a, estimator, metric,
@@ -42,10 +41,11 @@ void Statistics::print() const {
         error_asked ? fmt::format("asked {:.3g}, ", *error_asked) : "",
         refinements ? fmt::format("after {} refinement{} ", refinements, refinements == 1 ? "" : "s") : "", error.mean,
         error.points, error.median, error.p95, error.bias, error.noise);
+  if (checked && error.points == 0) fmt::print("  error      no visible point could be measured\n");
   if (error.points == 0 || !error_asked) return;
-  if (error.mean - error.noise > *error_asked)  // the measured mean contains the measurement's noise
+  if (error.exceeds(*error_asked))
     fmt::print("             above the asked error; {}\n",
-               adaptive ? "--refine N works on that" : "more --rays lower the records' own noise");
+               adaptive && !lazy ? "--refine N works on that" : "more --rays lower the records' own noise");
   else if (error.mean > 1.5 * *error_asked)
     fmt::print("             whether the asked error is met is not measurable at this noise\n");
 }
@@ -83,12 +83,19 @@ void Statistics::write_json(const std::string& path) const {
             {"height", height},
             {"triangles", triangles},
             {"cancelled", cancelled}};
+  const Json survey_json = survey.known ? Json{{"irradiance", survey.irradiance},
+                                               {"error_rate", survey.error_rate},
+                                               {"noise_rate", survey.noise_rate}}
+                                        : Json(nullptr);
   if (!estimator.empty())
     json["parameters"] = {{"estimator", estimator},
                           {"metric", metric},
                           {"a", a},
                           {"bounds", bounds},
                           {"extrapolate", extrapolate},
+                          {"aspect", std::isfinite(aspect) ? Json(aspect) : Json(nullptr)},
+                          {"survey", survey_json},
+                          {"rays_in_the_mean", record_rays},
                           {"gather", adaptive ? Json("auto") : Json{strata.polar, strata.azimuthal}},
                           {"order", lazy ? "lazy" : "rounds"},
                           {"secondary", secondary},

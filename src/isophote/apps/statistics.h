@@ -11,10 +11,12 @@ namespace isophote::app {
 /// What a render took and measured, for people and for scripts.
 struct Statistics {
   std::string method, estimator, metric, bounds;
-  bool lazy = false, secondary = false, adaptive = false, leak_test = false, cancelled = false;
+  bool lazy = false, secondary = false, adaptive = false, leak_test = false, cancelled = false, checked = false;
   std::optional<double> error_asked;
-  float a = 0;
+  float a = 0, aspect = 1;
+  Pilot survey{};
   int extrapolate = 0;
+  double record_rays = 0;  ///< in the mean
   Strata strata;
   std::size_t records = 0, rounds = 0, triangles = 0;
   int passes = 0, refinements = 0;

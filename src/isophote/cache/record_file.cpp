@@ -1,5 +1,6 @@
 #include "isophote/cache/record_file.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <filesystem>
@@ -67,8 +68,18 @@ void transfer(Stream& io, Record& r) {
   form(r.jet.hessian);
   io(r.jet.standard_error), io(r.jet.rays);
   io(r.jet.distances.harmonic_mean);
-  for (std::uint16_t& sector : r.jet.distances.obstacles.nearest) io(sector);
+  Obstacles& obstacles = r.jet.distances.obstacles;
+  for (std::uint16_t& sector : obstacles.nearest) io(sector);
+  obstacles.least = *std::min_element(obstacles.nearest.begin(), obstacles.nearest.end());
 }
+
+template <class Stream>
+void transfer(Stream& io, Pilot& pilot) {
+  auto known = static_cast<std::uint8_t>(pilot.known);
+  io(known), io(pilot.error_rate), io(pilot.irradiance), io(pilot.noise_rate);
+  pilot.known = known != 0;
+}
+constexpr std::size_t pilot_size = 13;
 
 std::size_t record_size() {
   Packer packer;
@@ -139,6 +150,11 @@ bool usable(const Record& r) {
          bounded(r.jet, f.radius) && curved(r);
 }
 
+bool usable(const Pilot& p) {
+  constexpr float most = std::numeric_limits<float>::max();
+  return within(p.error_rate, 0, most) && within(p.irradiance, 0, most) && within(p.noise_rate, 0, most);
+}
+
 constexpr std::size_t head_size = sizeof magic + 4 + 8 + 4;
 
 /// Takes a file apart from its start, so that what it claims is known to be true before it is kept: no more memory is
@@ -159,9 +175,13 @@ class Reader {
     RecordFile file;
     const std::uint64_t settings_size = read_head(file);
     file.settings = take(settings_size);
+    const std::string pilot_bytes = take(pilot_size);
+    Unpacker pilot_in{pilot_bytes.data()};
+    transfer(pilot_in, file.pilot);
+    if (pilot_bytes[0] > 1 || !usable(file.pilot)) fail("its survey is malformed");
     const std::string count_bytes = take(8);
     const std::uint64_t count = Unpacker{count_bytes.data()}.integer(8), each = record_size();
-    const std::uint64_t left = size_ - head_size - settings_size - 16;
+    const std::uint64_t left = size_ - head_size - settings_size - pilot_size - 16;
     if (count != left / each || left % each != 0) fail("is cut off or malformed (its count of records is wrong)");
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::string bytes = take(each);
@@ -189,7 +209,7 @@ class Reader {
   std::uint64_t read_head(RecordFile& file) {
     if (size_ < sizeof magic || take(sizeof magic) != std::string_view(magic, sizeof magic))
       fail("is not a record file");
-    if (size_ < head_size + 16) fail("is cut off");
+    if (size_ < head_size + pilot_size + 16) fail("is cut off");
     const std::string rest = take(head_size - sizeof magic);
     Unpacker in{rest.data()};
     if (const auto found = in.integer(4); found != version)
@@ -197,7 +217,7 @@ class Reader {
     file.scene = in.integer(8);
     const std::uint64_t settings_size = in.integer(4);
     constexpr std::uint64_t largest = 1 << 20;  // settings are a page
-    if (settings_size > largest || settings_size > size_ - head_size - 16)
+    if (settings_size > largest || settings_size > size_ - head_size - pilot_size - 16)
       fail("is cut off or malformed (its settings are too long)");
     return settings_size;
   }
@@ -217,6 +237,8 @@ void write_records(const std::string& path, const RecordFile& file) {
   out.integer(file.scene, 8);
   out.integer(file.settings.size(), 4);
   out.bytes += file.settings;
+  Pilot pilot = file.pilot;
+  transfer(out, pilot);
   out.integer(file.records.size(), 8);
   for (Record record : file.records) transfer(out, record);
   Checksum checksum;

@@ -12,6 +12,7 @@ namespace isophote {
 struct RecordFile {
   std::uint64_t scene = 0;  ///< hash of the scene
   std::string settings;     ///< lines `key=value` of everything that shaped the records
+  Pilot pilot{};            ///< of the picture they were made for
   std::vector<Record> records;
 };
 

@@ -22,12 +22,14 @@ struct Obstacles {
   static constexpr std::uint16_t nothing = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >> 16;
 
   std::array<std::uint16_t, sectors> nearest = filled(nothing);  ///< bits
+  std::uint16_t least = nothing;                                 ///< of those
 
-  float distance(int sector) const { return std::bit_cast<float>(static_cast<std::uint32_t>(nearest[sector]) << 16); }
+  float distance(int sector) const { return from_bits(nearest[sector]); }
   /// Takes note of something at `distance` >= 0.
   void meet(int sector, float distance) {
     const auto bits = static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(distance) >> 16);
     nearest[sector] = std::min(nearest[sector], bits);  // bits of floats that are not negative are in their order
+    least = std::min(least, nearest[sector]);
   }
 
   /// The sector of a direction in the tangent plane. Quarter turns are cut evenly in y / (|x| + |y|) instead of the
@@ -45,14 +47,16 @@ struct Obstacles {
   /// rays, which are few, met it: the margin is for that.
   bool before(const Vec3& q, const Vec3& normal) const {
     constexpr float margin = 0.8f;
+    const auto beyond = [&](float distance) { return length_squared(q) > margin * margin * distance * distance; };
+    if (!beyond(from_bits(least))) return false;  // as nearly always
     const Frame frame(normal);
-    const float reach = margin * distance(sector(dot(q, frame.u), dot(q, frame.v)));
-    return length_squared(q) > reach * reach;
+    return beyond(distance(sector(dot(q, frame.u), dot(q, frame.v))));
   }
 
   bool operator==(const Obstacles&) const = default;
 
  private:
+  static float from_bits(std::uint16_t bits) { return std::bit_cast<float>(static_cast<std::uint32_t>(bits) << 16); }
   static constexpr std::array<std::uint16_t, sectors> filled(std::uint16_t bits) {
     std::array<std::uint16_t, sectors> all{};
     all.fill(bits);

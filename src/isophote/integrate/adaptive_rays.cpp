@@ -7,7 +7,7 @@ namespace isophote {
 
 Strata strata_for(float spread, const Pilot& pilot, float noise) {
   const float rays = std::pow(pilot.noise_rate / noise, 2.0f) * std::cbrt(spread * spread);
-  return Strata::about(static_cast<int>(std::clamp(rays, float{fewest_rays}, float{most_rays})));
+  return Strata::about(rays > fewest_rays ? static_cast<int>(std::min(rays, float{most_rays})) : fewest_rays);
 }
 
 float relative_spread(const Jet<Rgb>& jet, const Pilot& pilot) {
@@ -20,7 +20,7 @@ Strata strata_near(const Job& job, const RecordCache& cache, const Place& place)
   cache.visit_near(place.position, [&](const Record& record) {
     if (dot(record.normal, place.normal) <= 0) return;
     const float distance = length_squared(place.position - record.position);
-    if (distance < nearest) nearest = distance, spread = relative_spread(record.jet, job.pilot);
+    if (distance > 0 && distance < nearest) nearest = distance, spread = relative_spread(record.jet, job.pilot);
   });
   return strata_for(spread, job.pilot, job.method.noise());
 }

@@ -15,10 +15,10 @@ Strata strata_for(float spread, const Pilot& pilot, float noise);
 /// s, by a gather that has been made.
 float relative_spread(const Jet<Rgb>& jet, const Pilot& pilot);
 
-/// The strata for a record at a place, by the spread of the nearest record that faces alike.
+/// The strata for a record at a place, by the spread of the nearest record that faces alike and is not the place's own.
 Strata strata_near(const Job& job, const RecordCache& cache, const Place& place);
 
 /// No gather whose rays adapt has fewer, for derivatives need them, or more.
-inline constexpr int fewest_rays = 200, most_rays = 1 << 14;
+inline constexpr int fewest_rays = 200, most_rays = 1 << 16;
 
 }  // namespace isophote

@@ -48,7 +48,8 @@ class Builder {
     for (; stride > 1 && !report_.cancelled; stride /= 2) {
       begin_level(1 + std::countr_zero(static_cast<unsigned>(stride)));
       std::vector<Candidate> candidates = uncovered(stride, 0);
-      if (!surveyed_) begin_with_survey(candidates);
+      if (!ready_to_survey(candidates)) continue;
+      begin_with_survey(candidates);
       cover(std::move(candidates));
       if (job_.progress.preview) job_.progress.preview(coarse_picture(job_, cache_, stride));
     }
@@ -56,7 +57,7 @@ class Builder {
     for (int pass = 0; pass < most_passes && !report_.cancelled; ++pass) {
       begin_level(2);
       std::vector<Candidate> left = uncovered(1, pass % job_.samples);
-      if (!surveyed_) begin_with_survey(left);
+      begin_with_survey(left);
       ++report_.passes;
       const bool enough = static_cast<double>(left.size()) < good_coverage * pixels;
       cover(std::move(left));
@@ -123,11 +124,16 @@ class Builder {
     return all;
   }
 
+  bool must_survey() const { return wants_survey(job_.method) && !job_.pilot.known; }
+  /// Levels too coarse to show what the picture is like are left out.
+  bool ready_to_survey(const std::vector<Candidate>& candidates) const {
+    return !must_survey() || !cache_.records().empty() || candidates.size() >= surveyed_places;
+  }
+
   /// Surveys the picture, where the method wants that, at the first candidates, whose jets then make the first records;
   /// where there are records already, candidates are no fair choice.
   void begin_with_survey(std::vector<Candidate>& candidates) {
-    surveyed_ = true;
-    if (!wants_survey(job_.method) || job_.pilot.irradiance > 0) return;
+    if (!must_survey() || candidates.empty()) return;
     if (!cache_.records().empty()) {
       job_.pilot = survey(job_, random_places(job_, report_.rays), report_.rays).pilot;
       return;
@@ -227,7 +233,6 @@ class Builder {
   BuildReport report_;
   Job job_;
   RecordCache& cache_;
-  bool surveyed_ = false;
   double done_ = 0, share_ = 0;  // of the build: before the present level, and of it
 };
 

@@ -21,7 +21,8 @@ struct CheckPoint {
   double cached = 0, reference = 0, noise = 0;
 };
 
-/// Rays for a reference whose own error is half of what a record here would have.
+/// Rays for a reference whose own error is about half of what a record here would have, and more where records read
+/// cached light, which is less noisy than paths.
 int reference_rays(const Job& job, const RecordCache& cache, const Place& place) {
   return job.method.adaptive ? 4 * strata_near(job, cache, place).size() : rays_per_point;
 }
@@ -35,16 +36,25 @@ double reference(const Job& job, const Place& place, int rays, std::uint64_t key
   return luminance(sum) * std::numbers::pi / gather.strata.size();
 }
 
-/// A random visible point that the cache covers, and what a path-traced gather finds there.
+/// A random visible point; none where chance finds nothing but sky and mirrors.
+std::optional<Place> random_place(const Job& job, std::uint64_t key, std::size_t index, RayCounts& rays) {
+  constexpr int most_tries = 64;
+  Sampler stream(key, static_cast<std::uint32_t>(index));
+  for (int i = 0; i < most_tries; ++i) {
+    const Vec2 at = stream.next2();
+    const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
+    const auto place = place_of(job, first_point(job.world, ray, true, stream, rays.camera), hash(key, index));
+    if (place) return place;
+  }
+  return std::nullopt;
+}
+
+/// What the cache and a path-traced gather say of a random visible point that the cache covers.
 CheckPoint check_point(const Job& job, const RecordCache& cache, int turn, std::size_t index, RayCounts& counts) {
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::check), job.seed, turn);
-  Sampler stream(key, static_cast<std::uint32_t>(index));
-  const Vec2 at = stream.next2();
-  const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
   RayCounts rays;
-  const FirstPoint seen = first_point(job.world, ray, true, stream, rays.camera);
   CheckPoint result;
-  if (const std::optional<Place> place = place_of(job, seen, hash(key, index))) {
+  if (const std::optional<Place> place = random_place(job, key, index, rays)) {
     if (const auto cached = cache.interpolate(query_at(*place), LeakTest{job.world, rays})) {
       HemisphereGather scratch;
       const int half = reference_rays(job, cache, *place) / 2;

@@ -12,6 +12,9 @@ struct MeasuredError {
   double bias = 0;   ///< (mean E - mean E_ref) / mean E_ref
   double noise = 0;  ///< mean error of E_ref itself, in the same measure: what `mean` would be for a perfect cache
   RayCounts rays;
+
+  /// Is it surely above what was asked? The measured mean contains the measurement's noise.
+  bool exceeds(double asked) const { return points > 0 && mean - noise > asked; }
 };
 
 /// Compares the cache with path-traced gathers at random visible points, as many as `ray_budget` rays pay for, but no

@@ -34,6 +34,7 @@ Survey survey(const Job& job, std::span<const Place> places, RayCounts& counts) 
   Survey result;
   if (places.empty()) return result;
   Pilot& pilot = result.pilot;
+  pilot.known = true;
   std::vector<Strata> strata(places.size(), job.strata);
   if (job.method.adaptive) {
     std::vector<Place> ahead(places.begin(), places.end());
@@ -60,7 +61,8 @@ Survey survey(const Job& job, std::span<const Place> places, RayCounts& counts) 
 std::vector<Place> random_places(const Job& job, RayCounts& counts) {
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::pilot), job.seed);
   std::vector<Place> places;
-  for (std::size_t i = 0; i < surveyed_places; ++i) {
+  constexpr std::size_t most_tries = 64 * surveyed_places;
+  for (std::size_t i = 0; i < most_tries && places.size() < surveyed_places; ++i) {
     Sampler stream(key, static_cast<std::uint32_t>(i));
     const Vec2 at = stream.next2();
     const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);

@@ -25,11 +25,11 @@ float record_density(const RecordCache& cache, const Query& query, OpenTest open
   return density;
 }
 
-RecordMaps record_maps(const Job& job, const RecordCache& cache) {
+RecordMaps record_maps(const Job& job, const RecordCache& cache, RayCounts& rays) {
   const std::size_t pixels = static_cast<std::size_t>(job.width) * job.height;
   RecordMaps maps{std::vector<float>(pixels), std::vector<float>(pixels)};
   const ErrorModel model = job.method.error_model();
-  for_each(job.parallel, static_cast<std::size_t>(job.height), 1, [&](std::size_t y, RayCounts& counts) {
+  rays += for_each(job.parallel, static_cast<std::size_t>(job.height), 1, [&](std::size_t y, RayCounts& counts) {
     for (int x = 0; x < job.width; ++x) {
       Sampler stream = job.sampler(x, static_cast<int>(y), 0);
       const Ray ray = job.camera_ray(x, static_cast<int>(y), stream);

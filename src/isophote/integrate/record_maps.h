@@ -12,7 +12,7 @@ struct RecordMaps {
   std::vector<float> error;    ///< relative error of the irradiance that the records' use predicts
   std::vector<float> density;  ///< records per square metre
 };
-RecordMaps record_maps(const Job& job, const RecordCache& cache);
+RecordMaps record_maps(const Job& job, const RecordCache& cache, RayCounts& rays);
 
 /// The error that interpolation at a place predicts: the mean of its records', weighted as their values are.
 float predicted_error_at(const RecordCache& cache, const Query& query, OpenTest open, const ErrorModel& model);

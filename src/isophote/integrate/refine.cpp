@@ -9,11 +9,12 @@
 namespace isophote {
 namespace {
 
-/// What the estimator says of a place now: as before, unless the rays are too few for the job's noise.
+/// What the estimator says of a place now: as before, unless the rays are too few for the job's noise. How many it
+/// wants other records say: were those kept whose own gather saw little noise, the mean would fall.
 Jet<Rgb> refined_jet(const Job& job, const RecordCache& cache, const Jet<Rgb>& before, Place place,
                      HemisphereGather& scratch, RayCounts& counts) {
   if (!job.method.adaptive) return before;
-  const Strata wanted = strata_for(relative_spread(before, job.pilot), job.pilot, job.method.noise());
+  const Strata wanted = strata_near(job, cache, place);
   if (static_cast<double>(wanted.size()) < 1.5 * before.rays) return before;
   place.key = hash(place.key, before.rays);
   return jet_at(job, job.method.secondary ? &cache : nullptr, place, wanted, scratch, counts);
@@ -22,35 +23,44 @@ Jet<Rgb> refined_jet(const Job& job, const RecordCache& cache, const Jet<Rgb>& b
 }  // namespace
 
 BuildReport refine(const Job& asked, RecordCache& cache, std::span<const Place> places) {
+  constexpr std::size_t between_stops = 64;  // records, after which the host is asked whether to go on
   Job job = asked;
-  RayCounts rays;
+  BuildReport report;
   // With more rays Hessians are less noisy, and say less of what the mean error is.
-  if (wants_survey(job.method)) job.pilot = survey(job, random_places(job, rays), rays).pilot;
-  const std::size_t kept = cache.records().size() - places.size();
+  if (wants_survey(job.method)) job.pilot = survey(job, random_places(job, report.rays), report.rays).pilot;
   std::vector<Record> records(cache.records().begin(), cache.records().end());
-  rays += for_each(job.parallel, places.size(), 1, [&](std::size_t i, RayCounts& counts) {
-    thread_local HemisphereGather scratch;
-    Record& record = records[kept + i];
-    const Jet<Rgb> jet = refined_jet(job, cache, record.jet, places[i], scratch, counts);
-    record = job.method.make_record(record.position, record.normal, jet, view_of(job, places[i]));
-  });
+  for (std::size_t from = 0; from < places.size(); from += between_stops) {
+    if (job.progress.stop()) {
+      report.pilot = asked.pilot, report.cancelled = true;
+      report.places.assign(places.begin(), places.end());
+      return report;
+    }
+    job.progress.tell("refine", static_cast<double>(from) / static_cast<double>(places.size()));
+    report.rays +=
+        for_each(job.parallel, std::min(between_stops, places.size() - from), 1, [&](std::size_t i, RayCounts& counts) {
+          thread_local HemisphereGather scratch;
+          Record& record = records[from + i];
+          const Place& place = places[from + i];
+          const Jet<Rgb> jet = refined_jet(job, cache, record.jet, place, scratch, counts);
+          record = job.method.make_record(record.position, record.normal, jet, view_of(job, place));
+        });
+  }
   RecordCache refined(cache.bounds());
   for (const Record& record : records) {
     const std::uint32_t id = refined.insert(record);
     job.method.settle(refined.settling(), {&id, 1});
   }
   cache = std::move(refined);
-  BuildReport report = build_in_rounds(job, cache);
-  report.rays += rays;
-  report.places.insert(report.places.begin(), places.begin(), places.end());
-  return report;
+  BuildReport added = build_in_rounds(job, cache);
+  added.rays += report.rays;
+  added.places.insert(added.places.begin(), places.begin(), places.end());
+  return added;
 }
 
-float refined_threshold(const Method& method, double measured) {
+float refined_threshold(const Method& method, double asked, double measured) {
   constexpr double at_most = 0.25;  // of the threshold in one step, for a measurement may be far off
-  const double aim = method.error();
-  return method.settings.a * threshold(*method.metric, aim * std::max(at_most, 0.9 * aim / measured)) /
-         threshold(*method.metric, aim);
+  const double aim = method.error(), factor = std::max(at_most, 0.9 * asked / measured);
+  return method.settings.a * threshold(*method.metric, aim * factor) / threshold(*method.metric, aim);
 }
 
 }  // namespace isophote

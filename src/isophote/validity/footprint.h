@@ -62,9 +62,12 @@ inline constexpr float smallest_radius = 1e-5f;
 
 /// What a few places of the picture say of all, in the mean over visible points: for metrics that aim at a mean error.
 struct Pilot {
+  bool known = false;    ///< there was a survey
   float error_rate = 0;  ///< error for unit threshold, 1/length: see total_error.h
   float irradiance = 0;  ///< luminance
   float noise_rate = 0;  ///< of rays that adapt: see adaptive_rays.h
+
+  bool operator==(const Pilot&) const = default;
 };
 
 /// How a record is seen when its footprint is decided.

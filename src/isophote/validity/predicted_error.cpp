@@ -23,7 +23,8 @@ float measure(const Record& record, const Vec3& q, const Vec3& n, const ErrorMod
   const Footprint& f = record.footprint;
   const float natural = f.unscaled * model.scale;
   const float distance = std::sqrt(quadratic_form(f.shape, q)) * (natural > 0 ? f.radius / natural : infinity);
-  return model.threshold * (distance + f.normal_scale * std::sqrt(length_squared(n - record.normal) / 2));
+  const float turned = f.normal_scale * std::sqrt(length_squared(n - record.normal) / 2);
+  return model.threshold * (f.falloff == Falloff::tabellion ? std::max(distance, turned) : distance + turned);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "isophote/validity/settle.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "isophote/validity/limit_extrapolation.h"
 
@@ -15,7 +16,9 @@ constexpr float least_height = 0.25f;
 void settle_raised(Record& record, const SettleRule& rule) {
   const float natural = record.footprint.unscaled * rule.scale, radius = record.footprint.radius;
   limit_extrapolation(record, natural);
-  if (natural < radius) record.footprint.flatten(record.normal, std::max(natural, least_height * radius));
+  if (!(natural < radius)) return;
+  const float height = 1 / std::sqrt(quadratic_form(record.footprint.shape, record.normal));
+  record.footprint.flatten(record.normal, std::min(height, std::max(natural, least_height * radius)));
 }
 
 void shrink(Record& record, float unscaled, const SettleRule& rule) {
