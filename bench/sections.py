@@ -77,7 +77,7 @@ def leaks():
         biases.append([test, stats["records"], f"{100 * e['bias']:+.1f}", percent(e["relative_rmse"]), percent(e["block_error"])])
     records.unlink()
     return (f"## Leaks\n\nCPU seconds of build and final pass with the leak test over those without, medians and ranges of {REPEATS} pairs, "
-            "`cached` at its defaults, and the rays it casts as a share of all:\n\n" +
+            "`cached` for an error of 0.1, and the rays it casts as a share of all:\n\n" +
             table(["scene", "growth %", "range %", "records without", "records with", "rays %"], costs) +
             "\n\nThe dark room of `scenes/thin-wall.glb`, 2 cm from one lit twenty times as brightly, rendered with the records of both:\n\n" +
             table(["leak test", "records", "bias %", "RMSE %", "block %"], biases))

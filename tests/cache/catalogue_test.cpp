@@ -74,8 +74,8 @@ TEST(Catalogue, RefusalsNameBothSides) {
   no_gradient.settings.bounds.gradient = false;
   EXPECT_EQ(refusal(no_gradient), "");
 
-  const RadiusBounds each[] = {{.min_pixels = 1}, {.max_pixels = 1},  {.max_view = 1},  {.min_length = 1},
-                               {.max_length = 1}, {.gradient = true}, {.neighbours = 1}};
+  const RadiusBounds each[] = {{.min_pixels = 1}, {.max_pixels = 1}, {.min_view = 1},    {.max_view = 1},
+                               {.min_length = 1}, {.max_length = 1}, {.gradient = true}, {.neighbours = 1}};
   for (const char* name : {"split-sphere", "uniform"})
     for (const RadiusBounds& bounds : each) {
       Method unheeded = find_method("ward1992");

@@ -33,10 +33,10 @@ std::string record_settings(const Job& job) {
   const Method& m = job.method;
   const RadiusBounds& b = m.settings.bounds;
   return fmt::format(
-      "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmax-view={}\nmin-radius={}\n"
+      "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmax-view={}\nmin-radius={}\n"
       "max-radius={}\nbound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}\n"
       "secondary={}\nleak-test={}\nmax-depth={}\n",
-      m.estimator->name, m.metric->name, m.settings.a, b.min_pixels, b.max_pixels, b.max_view, b.min_length,
+      m.estimator->name, m.metric->name, m.settings.a, b.min_pixels, b.max_pixels, b.min_view, b.max_view, b.min_length,
       b.max_length, b.gradient, b.neighbours, m.settings.aspect, m.order,
       m.settings.falloff ? static_cast<int>(*m.settings.falloff) : -1,
       m.adaptive ? "auto" : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal), m.secondary, m.leak_test,

@@ -69,7 +69,7 @@ constexpr Option table[] = {
     {"method", "metric", "NAME", "another metric than the method's", [](S& s, T t) { s.metric = find_metric(t).name; },
      true},
     {"method", "error", "E",
-     "wanted mean relative error of the cached irradiance (default: 0.05); decides the threshold; method path "
+     "wanted mean relative error of the cached irradiance (default: 0.03); decides the threshold; method path "
      "ignores it",
      [](S& s, T t) { s.error = number<double>(t, 1e-5, 10), s.a.reset(), s.records.reset(); }},
     {"method", "a", "A", "the metric's own threshold, in place of --error",
@@ -98,6 +98,8 @@ constexpr Option table[] = {
      [](S& s, T t) { s.min_pixels = number<float>(t, 0, 1e6); }, true},
     {"method", "max-pixels", "N", "upper bound of radii, in pixels",
      [](S& s, T t) { s.max_pixels = number<float>(t, 0, 1e6); }, true},
+    {"method", "min-view", "H", "lower bound of radii, in heights of the picture, times the root of the threshold a",
+     [](S& s, T t) { s.min_view = number<float>(t, 0, 1e6); }, true},
     {"method", "max-view", "H", "upper bound of radii, in heights of the picture",
      [](S& s, T t) { s.max_view = number<float>(t, 0, 1e6); }, true},
     {"method", "min-radius", "R", "lower bound of radii, in scene units",
@@ -166,6 +168,7 @@ Method chosen_method(const RenderSettings& s) {
   RadiusBounds& bounds = method.settings.bounds;
   bounds.min_pixels = s.min_pixels.value_or(bounds.min_pixels);
   bounds.max_pixels = s.max_pixels.value_or(bounds.max_pixels);
+  bounds.min_view = s.min_view.value_or(bounds.min_view);
   bounds.max_view = s.max_view.value_or(bounds.max_view);
   bounds.min_length = s.min_radius.value_or(bounds.min_length);
   bounds.max_length = s.max_radius.value_or(bounds.max_length);
@@ -194,6 +197,7 @@ std::string describe(const RadiusBounds& b) {
   const auto add = [&](const std::string& s) { text += (text.empty() ? "" : ", ") + s; };
   if (b.min_pixels > 0) add(fmt::format("at least {:g} px", b.min_pixels));
   if (b.max_pixels < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} px", b.max_pixels));
+  if (b.min_view > 0) add(fmt::format("at least {:g} sqrt(a) of the picture's height", b.min_view));
   if (b.max_view < std::numeric_limits<float>::infinity())
     add(fmt::format("at most {:g} of the picture's height", b.max_view));
   if (b.min_length > 0) add(fmt::format("at least {:g} scene units", b.min_length));

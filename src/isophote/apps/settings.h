@@ -22,7 +22,7 @@ struct RenderSettings {
   std::optional<int> max_depth, records;
   std::optional<bool> secondary, leak_test;
   bool lazy = false;
-  std::optional<float> min_pixels, max_pixels, max_view, min_radius, max_radius;
+  std::optional<float> min_pixels, max_pixels, min_view, max_view, min_radius, max_radius;
   std::optional<bool> bound_gradient;
   std::optional<float> bound_neighbours;
   std::optional<int> extrapolate;
@@ -33,7 +33,7 @@ struct RenderSettings {
 };
 
 /// Wanted mean relative error where neither an error, a threshold nor a number of records is given.
-inline constexpr double default_error = 0.05;
+inline constexpr double default_error = 0.03;
 /// Rays of a record where they do not adapt and no number is given.
 inline constexpr int default_rays = 800;
 

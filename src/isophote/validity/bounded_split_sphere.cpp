@@ -24,7 +24,7 @@ float gradient_radius(const Jet<Rgb>& jet) {
 Footprint bounded_split_sphere(const Jet<Rgb>& jet, const View& view, float a, const RadiusBounds& bounds) {
   float unscaled = std::min(jet.distances.harmonic_mean, view.scene_scale);
   if (bounds.gradient) unscaled = std::min(unscaled, gradient_radius(jet));
-  const RadiusRange range(bounds, view);
+  const RadiusRange range(bounds, view, a);
   Footprint footprint = Footprint::disk(range.largest, 1 / a);
   footprint.unscaled = unscaled;
   footprint.smallest = range.smallest;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "isophote/validity/footprint.h"
@@ -11,6 +12,7 @@ namespace isophote {
 struct RadiusBounds {
   float min_pixels = 0;  ///< [Tabellion, Lamorlette 2004], on the used radius
   float max_pixels = std::numeric_limits<float>::infinity();
+  float min_view = 0;  ///< times the root of the threshold, in heights of the picture: a floor of any resolution
   float max_view = std::numeric_limits<float>::infinity();  ///< heights of the picture: nothing is missed at large
   float min_length = 0;                                     ///< scene units, on the used radius
   float max_length = std::numeric_limits<float>::infinity();
@@ -25,14 +27,14 @@ struct RadiusBounds {
 struct RadiusRange {
   float smallest, largest;
 
-  RadiusRange(const RadiusBounds& bounds, const View& view) {
+  RadiusRange(const RadiusBounds& bounds, const View& view, float threshold) {
     // Where a pixel spans nothing, an infinite bound stays one.
     const auto times = [](float bound, float size) {
       return bound == std::numeric_limits<float>::infinity() ? bound : bound * size;
     };
     const float pixels = std::min(times(bounds.max_pixels, view.pixel), times(bounds.max_view, view.picture));
-    smallest = std::max(
-        {std::min(bounds.min_length, pixels), bounds.min_pixels * view.pixel, smallest_radius * view.scene_scale});
+    const float wanted = std::max(bounds.min_length, bounds.min_view * std::sqrt(threshold) * view.picture);
+    smallest = std::max({std::min(wanted, pixels), bounds.min_pixels * view.pixel, smallest_radius * view.scene_scale});
     largest = std::max(smallest, std::min({bounds.max_length, pixels, view.scene_scale}));
   }
 };

@@ -57,7 +57,7 @@ Footprint total_error(const Jet<Rgb>& jet, const View& view, float wanted, const
     first = std::min(first, shorter * aspect), second = std::min(second, shorter * aspect);
   }
   const double longer = std::max(first, second), shorter = std::min(first, second);
-  const RadiusRange range(bounds, view);
+  const RadiusRange range(bounds, view, wanted);
   Footprint footprint;
   footprint.normal_scale = normal_scale(wanted);
   footprint.falloff = Falloff::tent;
