@@ -5,7 +5,7 @@ from plot import log_log
 SAMPLES = 16
 PATH_SAMPLES = (16, 64)
 # What is asked of `cached`, and the thresholds and rays of `bounded`, along the lower envelope of its error over cost.
-ERRORS = {"cornell-box": (0.2, 0.1, 0.05, 0.03, 0.02, 0.01), "atrium": (0.2, 0.1, 0.07, 0.05)}
+ERRORS = {"cornell-box": (0.1, 0.05, 0.03, 0.02, 0.01), "atrium": (0.2, 0.1, 0.05, 0.03)}
 BOUNDED = {"cornell-box": ((0.4, 400), (0.3, 800), (0.2, 1600), (0.2, 3200)), "atrium": ((0.4, 200), (0.4, 400), (0.3, 800))}
 MEASURES = (("RMSE", "relative_rmse"), ("block", "block_error"))
 LAYERS = ("irradiance", "indirect")

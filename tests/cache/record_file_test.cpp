@@ -178,6 +178,23 @@ TEST_F(RecordFileTest, WrongLengthsWithARightChecksumAreRefused) {
   }
 }
 
+TEST_F(RecordFileTest, ASurveyOfNonsenseIsRefused) {
+  const RecordFile file = sample(1);
+  write_records(path_, file);
+  const std::string whole = bytes();
+  const std::size_t survey_at = settings_at + file.settings.size();
+  for (const unsigned known : {2u, 0x80u, 0xffu}) {
+    std::string crafted = whole;
+    put_integer(crafted, survey_at, known, 1);
+    put_signed(crafted);
+    EXPECT_NE(refusal().find("survey"), std::string::npos) << known;
+  }
+  std::string negative = whole;
+  negative[survey_at + 4] |= '\x80';
+  put_signed(negative);
+  EXPECT_NE(refusal().find("survey"), std::string::npos);
+}
+
 // Whoever signs a file of nonsense still does not get it into a lookup.
 TEST_F(RecordFileTest, UnusableRecordsWithARightChecksumAreRefused) {
   const float nan = std::numeric_limits<float>::quiet_NaN();

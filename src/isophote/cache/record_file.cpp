@@ -178,7 +178,7 @@ class Reader {
     const std::string pilot_bytes = take(pilot_size);
     Unpacker pilot_in{pilot_bytes.data()};
     transfer(pilot_in, file.pilot);
-    if (pilot_bytes[0] > 1 || !usable(file.pilot)) fail("its survey is malformed");
+    if (static_cast<unsigned char>(pilot_bytes[0]) > 1 || !usable(file.pilot)) fail("its survey is malformed");
     const std::string count_bytes = take(8);
     const std::uint64_t count = Unpacker{count_bytes.data()}.integer(8), each = record_size();
     const std::uint64_t left = size_ - head_size - settings_size - pilot_size - 16;
