@@ -37,15 +37,11 @@ double reference(const Job& job, const Place& place, int rays, std::uint64_t key
 }
 
 /// A random visible point; none where chance finds nothing but sky and mirrors.
-std::optional<Place> random_place(const Job& job, std::uint64_t key, std::size_t index, RayCounts& rays) {
+std::optional<Place> check_place(const Job& job, std::uint64_t key, std::size_t index, RayCounts& rays) {
   constexpr int most_tries = 64;
   Sampler stream(key, static_cast<std::uint32_t>(index));
-  for (int i = 0; i < most_tries; ++i) {
-    const Vec2 at = stream.next2();
-    const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
-    const auto place = place_of(job, first_point(job.world, ray, true, stream, rays.camera), hash(key, index));
-    if (place) return place;
-  }
+  for (int i = 0; i < most_tries; ++i)
+    if (const auto place = random_place(job, stream, hash(key, index), rays)) return place;
   return std::nullopt;
 }
 
@@ -54,7 +50,7 @@ CheckPoint check_point(const Job& job, const RecordCache& cache, int turn, std::
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::check), job.seed, turn);
   RayCounts rays;
   CheckPoint result;
-  if (const std::optional<Place> place = random_place(job, key, index, rays)) {
+  if (const std::optional<Place> place = check_place(job, key, index, rays)) {
     if (const auto cached = cache.interpolate(query_at(*place), LeakTest{job.world, rays})) {
       HemisphereGather scratch;
       const int half = reference_rays(job, cache, *place) / 2;

@@ -64,10 +64,7 @@ std::vector<Place> random_places(const Job& job, RayCounts& counts) {
   constexpr std::size_t most_tries = 64 * surveyed_places;
   for (std::size_t i = 0; i < most_tries && places.size() < surveyed_places; ++i) {
     Sampler stream(key, static_cast<std::uint32_t>(i));
-    const Vec2 at = stream.next2();
-    const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
-    if (const auto place = place_of(job, first_point(job.world, ray, true, stream, counts.camera), hash(key, i)))
-      places.push_back(*place);
+    if (const auto place = random_place(job, stream, hash(key, i), counts)) places.push_back(*place);
   }
   return places;
 }
