@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <optional>
 
 #include "isophote/core/atomic_file.h"
 #include "isophote/core/error.h"
@@ -19,16 +18,9 @@ namespace {
 
 const std::uint64_t stream_of_points = hash(static_cast<std::uint64_t>(Purpose::test), 0x706f696e7473);
 
-std::optional<Place> visible_place(const Job& job, std::size_t index, RayCounts& counts) {
-  Sampler stream(stream_of_points, static_cast<std::uint32_t>(index));
-  const Vec2 at = stream.next2();
-  const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
-  return place_of(job, first_point(job.world, ray, true, stream, counts.camera));
-}
-
 double irradiance(const Job& job, const Place& place, int rays, std::uint64_t key, RayCounts& counts) {
   thread_local HemisphereGather gather;
-  gather_hemisphere(job.world, nullptr, place, Strata::about(rays), key, gather, counts);
+  gather_hemisphere(job.world, job.light, place, Strata::about(rays), key, gather, counts);
   Rgbd sum;
   for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
   return luminance(sum) * std::numbers::pi / gather.strata.size();
@@ -39,8 +31,10 @@ double irradiance(const Job& job, const Place& place, int rays, std::uint64_t ke
 std::vector<FixedPoint> make_points(const Job& job, std::size_t count, int rays) {
   std::vector<Place> places;
   RayCounts counts;
-  for (std::size_t index = 0; places.size() < count && index < 100 * count; ++index)
-    if (const auto place = visible_place(job, index, counts)) places.push_back(*place);
+  for (std::size_t index = 0; places.size() < count && index < 100 * count; ++index) {
+    Sampler stream(stream_of_points, static_cast<std::uint32_t>(index));
+    if (const auto place = random_place(job, stream, 0, counts)) places.push_back(*place);
+  }
   std::vector<FixedPoint> points(places.size());
   for_each(job.parallel, places.size(), 1, [&](std::size_t i, RayCounts& each) {
     const auto half = [&](int h) { return irradiance(job, places[i], rays, hash(stream_of_points, i, h), each); };

@@ -11,26 +11,27 @@ namespace isophote::bench {
 namespace {
 
 constexpr const char* usage =
-    "usage: bench_figures points SCENE SIZE COUNT RAYS FILE\n"
+    "usage: bench_figures points SCENE SIZE LIGHT COUNT RAYS FILE\n"
     "       bench_figures line\n"
     "       bench_figures derivatives FOLDER\n"
-    "       bench_figures equal SCENE SIZE SEED RAYS FILE VARIANT,... COUNT,... [PICTURES]\n";
+    "       bench_figures equal SCENE SIZE LIGHT SEED RAYS FILE VARIANT,... COUNT,... [PICTURES]\n"
+    "where gathers hit they follow paths, or read one fine cache: LIGHT is paths or fixed\n";
 
 int run(const std::vector<std::string>& arguments) {
   const auto is = [&](const char* verb, std::size_t fewest, std::size_t most) {
     return !arguments.empty() && arguments[0] == verb && arguments.size() > fewest && arguments.size() <= most + 1;
   };
-  if (is("points", 5, 5)) {
-    const SetUp scene(arguments[1], arguments[2]);
-    write_points(arguments[5], make_points(scene.job(), std::stoul(arguments[3]), std::stoi(arguments[4])));
-  } else if (is("equal", 7, 8)) {
-    const SetUp scene(arguments[1], arguments[2]);
+  if (is("points", 6, 6)) {
+    const SetUp scene(arguments[1], arguments[2], arguments[3] == "fixed");
+    write_points(arguments[6], make_points(scene.job(), std::stoul(arguments[4]), std::stoi(arguments[5])));
+  } else if (is("equal", 8, 9)) {
+    const SetUp scene(arguments[1], arguments[2], arguments[3] == "fixed");
     Job job = scene.job();
-    job.seed = std::stoull(arguments[3]);
-    job.strata = Strata::about(std::stoi(arguments[4]));
-    Comparison comparison{split(arguments[6], ','), {}, arguments.size() > 8 ? arguments[8] : ""};
-    for (const std::string& count : split(arguments[7], ',')) comparison.counts.push_back(std::stoul(count));
-    compare_at_equal_records(job, read_points(arguments[5]), comparison);
+    job.seed = std::stoull(arguments[4]);
+    job.strata = Strata::about(std::stoi(arguments[5]));
+    Comparison comparison{split(arguments[7], ','), {}, arguments.size() > 9 ? arguments[9] : ""};
+    for (const std::string& count : split(arguments[8], ',')) comparison.counts.push_back(std::stoul(count));
+    compare_at_equal_records(job, read_points(arguments[6]), comparison);
   } else if (is("line", 0, 0)) {
     print_line();
   } else if (is("derivatives", 1, 1)) {

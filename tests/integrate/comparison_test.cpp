@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 
 #include "integrate/stage.h"
 #include "isophote/integrate/gather.h"
 #include "isophote/integrate/jet_memo.h"
+#include "isophote/integrate/make_record.h"
 #include "isophote/integrate/solve_records.h"
 
 // The order in which the field's methods come out at equal numbers of records. How far apart they are is for the
@@ -29,15 +31,12 @@ std::vector<Reference> references(const Job& job, std::size_t count) {
       for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
       return luminance(sum) * M_PI / gather.strata.size();
     };
-    for (std::uint32_t next = 0;; ++next) {
+    std::optional<Place> place;
+    for (std::uint32_t next = 0; !place; ++next) {
       Sampler stream(Purpose::test, 0, i, next);
-      const Vec2 at = stream.next2();
-      const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
-      const auto place = place_of(job, first_point(job.world, ray, true, stream, counts.camera));
-      if (!place) continue;
-      all[i].place = *place;
-      break;
+      place = random_place(job, stream, 0, counts);
     }
+    all[i].place = *place;
     all[i].first = irradiance(1), all[i].second = irradiance(2);
   });
   return all;

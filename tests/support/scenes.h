@@ -57,6 +57,24 @@ inline Mesh quad(const Vec3& origin, const Vec3& a, const Vec3& b, int material)
   return mesh;
 }
 
+/// A `quad` in 2 n^2 triangles.
+inline Mesh divided(const Mesh& quad, int n) {
+  Mesh mesh;
+  mesh.material = quad.material;
+  const Vec3 &o = quad.positions[0], s = quad.positions[1] - o, t = quad.positions[3] - o;
+  const float size = 1 / static_cast<float>(n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      const Vec3 corner = o + s * (i * size) + t * (j * size);
+      mesh.positions.insert(mesh.positions.end(),
+                            {corner, corner + s * size, corner + (s + t) * size, corner + t * size});
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+  return mesh;
+}
+
 /// The six sides of a box; their winding faces inwards or outwards.
 inline Mesh box(const Vec3& lower, const Vec3& upper, bool inwards, int material) {
   const Vec3 s = upper - lower, x{s.x, 0, 0}, y{0, s.y, 0}, z{0, 0, s.z};

@@ -24,6 +24,7 @@ struct Progress {
 };
 
 class JetMemo;
+class RecordCache;
 
 /// One picture to compute: what it shows, by which method, and on whose threads. Results depend on everything but
 /// `parallel`.
@@ -37,6 +38,7 @@ struct Job {
   Strata strata = Strata::about(800);  ///< of each record's gather, unless the method adapts them
   Pilot pilot{};                       ///< of a survey; empty: made before the first record, where one is wanted
   JetMemo* memo = nullptr;             ///< where builds share what their places see; not with secondary caching
+  const RecordCache* light = nullptr;  ///< what gathers read where they hit, unless they read the records made so far
   ParallelFor parallel{};
   Progress progress{};
 

@@ -27,12 +27,12 @@ View view_of(const Job& job, const Place& place) {
           job.pilot};
 }
 
-Jet<Rgb> jet_at(const Job& job, const RecordCache* cache, const Place& place, Strata strata, HemisphereGather& scratch,
+Jet<Rgb> jet_at(const Job& job, const RecordCache* so_far, const Place& place, Strata strata, HemisphereGather& scratch,
                 RayCounts& counts) {
   ISOPHOTE_CHECK(job.memo && (job.method.secondary || job.method.adaptive), ==, false);
   const auto gather = [&]() -> const HemisphereGather& {
     const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), place.key);
-    gather_hemisphere(job.world, cache, place, strata, key, scratch, counts);
+    gather_hemisphere(job.world, job.method.secondary ? so_far : job.light, place, strata, key, scratch, counts);
     return scratch;
   };
   const Estimator& estimator = *job.method.estimator;
@@ -42,7 +42,7 @@ Jet<Rgb> jet_at(const Job& job, const RecordCache* cache, const Place& place, St
 Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
                    RayCounts& counts) {
   const Strata strata = job.method.adaptive ? strata_near(job, cache, place) : job.strata;
-  const Jet<Rgb> jet = jet_at(job, job.method.secondary ? &cache : nullptr, place, strata, scratch, counts);
+  const Jet<Rgb> jet = jet_at(job, &cache, place, strata, scratch, counts);
   return job.method.make_record(place.position, place.normal, jet, view_of(job, place));
 }
 

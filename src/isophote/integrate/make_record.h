@@ -15,9 +15,9 @@ std::optional<Place> random_place(const Job& job, Sampler& stream, std::uint64_t
 /// How the job sees a record at a place.
 View view_of(const Job& job, const Place& place);
 
-/// What the job's estimator says of a place, by a gather that reads `cache` where that is not null. Its random numbers
-/// depend on the place's key alone, not on the records before it.
-Jet<Rgb> jet_at(const Job& job, const RecordCache* cache, const Place& place, Strata strata, HemisphereGather& scratch,
+/// What the job's estimator says of a place, by a gather that reads `so_far`, where the method caches what gathers see
+/// and there is something yet. Its random numbers depend on the place's key alone, not on the records before it.
+Jet<Rgb> jet_at(const Job& job, const RecordCache* so_far, const Place& place, Strata strata, HemisphereGather& scratch,
                 RayCounts& counts);
 
 /// The record at a place.

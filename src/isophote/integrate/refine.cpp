@@ -17,7 +17,7 @@ Jet<Rgb> refined_jet(const Job& job, const RecordCache& cache, const Jet<Rgb>& b
   const Strata wanted = strata_near(job, cache, place);
   if (static_cast<double>(wanted.size()) < 1.5 * before.rays) return before;
   place.key = hash(place.key, before.rays);
-  return jet_at(job, job.method.secondary ? &cache : nullptr, place, wanted, scratch, counts);
+  return jet_at(job, &cache, place, wanted, scratch, counts);
 }
 
 }  // namespace

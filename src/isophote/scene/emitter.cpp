@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 
 #include "isophote/core/error.h"
-#include "isophote/sampling/warp.h"
 #include "isophote/scene/emissive_triangles.h"
 #include "isophote/scene/environment.h"
+#include "isophote/scene/lamp_sampling.h"
 #include "isophote/scene/near_grid.h"
 #include "isophote/scene/punctual_lights.h"
 
@@ -24,15 +25,19 @@ struct Emitters::Impl {
   explicit Impl(const Scene& scene_);
   void number_triangles();
   void make_tables(std::vector<double> weights);
+  void prepare_few(std::span<const double> powers);
+  NearGrid grid_of_near(const Box& bounds) const;
 
   // The order of choices: triangles, peaks of the environment, its rest.
   std::size_t peaks() const { return triangles.size(); }
   std::size_t rest() const { return peaks() + 1; }
   const AliasTable& table(Among among) const { return among == Among::all ? all : direct; }
 
-  LightSample sample_triangle(const EmissiveTriangle& t, const Vec3& from, Vec2 u) const;
   LightSample sample_environment(std::size_t index, Vec2 u) const;
-  float pdf(const EmissiveTriangle& t, const Vec3& from, const Vec3& to, const Vec3& direction) const;
+  bool few() const { return !mean_radiances.empty(); }
+  float few_chance(Among among) const { return among == Among::all ? few_of_all : few_of_direct; }
+  LightSample sample_few(const Vec3& from, float u_choice, Vec2 u, Among among) const;
+  LightSample sample_many(const Vec3& from, float u_choice, Vec2 u, Among among) const;
 
   const Scene& scene;
   Environment environment;
@@ -40,6 +45,8 @@ struct Emitters::Impl {
   std::vector<std::uint32_t> first_of_mesh;  // into emitter_of; none: the mesh does not emit
   std::vector<std::uint32_t> emitter_of;     // triangle of an emissive mesh -> triangles; none: black
   AliasTable all, direct;
+  std::vector<float> mean_radiances;        // luminance, of few triangles; empty: they are many
+  float few_of_all = 0, few_of_direct = 0;  // of all of them together
   PunctualLights punctual;
   NearGrid near;
 };
@@ -50,22 +57,37 @@ Emitters::Impl::Impl(const Scene& scene_) : scene(scene_), environment(scene_.en
   auto [emissive, weights] = emissive_triangles(scene);
   triangles = std::move(emissive);
   number_triangles();
+  const std::vector<double> powers = weights;
   if (std::max(weights.size(), scene.lights.size()) > most)
     throw UserError("the scene has more than " + std::to_string(most) + " emissive triangles, or as many lights");
   weights.push_back(pi * radius * radius * environment.peak_power());
   weights.push_back(pi * radius * radius * environment.rest_power());
   make_tables(std::move(weights));
+  if (triangles.size() <= LampChoice::most)
+    prepare_few(powers);
+  else
+    near = grid_of_near(bounds);
+}
 
+void Emitters::Impl::prepare_few(std::span<const double> powers) {
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const EmissiveTriangle& t = triangles[i];
+    mean_radiances.push_back(static_cast<float>(powers[i] / (pi * t.area * (t.double_sided ? 2 : 1))));
+    few_of_all += all.probability(i), few_of_direct += direct.probability(i);
+  }
+}
+
+NearGrid Emitters::Impl::grid_of_near(const Box& bounds) const {
   std::vector<NearGrid::Place> places;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const EmissiveTriangle& t = triangles[i];
     Box box;
     for (const Vec3& p : {t.origin, t.origin + t.edge1, t.origin + t.edge2}) box.extend(p);
-    // At distance r and both cosines 1, sampling has the density chance r^2 / area, a cosine-distributed ray 1 / pi.
+    // Sampling has at least the density chance r^2 / area at distance r, a cosine-distributed ray at most 1 / pi.
     const float chance = direct.probability(static_cast<std::uint32_t>(i));
     if (chance > 0) places.push_back({box, 0.5f * std::sqrt(t.area / (pi * chance))});
   }
-  near = NearGrid(bounds, places);
+  return {bounds, places};
 }
 
 void Emitters::Impl::number_triangles() {
@@ -98,26 +120,6 @@ void Emitters::Impl::make_tables(std::vector<double> weights) {
   all = AliasTable(weights);
 }
 
-float Emitters::Impl::pdf(const EmissiveTriangle& t, const Vec3& from, const Vec3& to, const Vec3& direction) const {
-  const float cosine = -dot(t.normal, direction);
-  if (cosine == 0 || (cosine < 0 && !t.double_sided)) return 0;
-  return length_squared(to - from) / (t.area * std::abs(cosine));
-}
-
-LightSample Emitters::Impl::sample_triangle(const EmissiveTriangle& t, const Vec3& from, Vec2 u) const {
-  const Vec2 b = uniform_triangle(u);
-  const Vec3 to = t.origin + t.edge1 * b.x + t.edge2 * b.y;
-  const float distance = length(to - from);
-  if (!(distance > 0)) return {};
-  const Vec3 direction = (to - from) / distance;
-  const float density = pdf(t, from, to, direction);
-  if (!(density > 0)) return {};
-  const Rgb radiance = t.varies ? covered_emission(scene, {t.mesh, t.triangle, b.x, b.y}) : t.radiance;
-  const float lift = ray_offset(to, t.origin, t.edge1, t.edge2, distance);
-  const Vec3 end = to + t.normal * std::copysign(lift, -dot(t.normal, direction));
-  return {direction, distance, radiance, density, false, true, end};
-}
-
 LightSample Emitters::Impl::sample_environment(std::size_t index, Vec2 u) const {
   const bool peak = index == peaks();
   const Vec2 point = peak ? environment.sample_peaks(u) : environment.sample_rest(u);
@@ -129,13 +131,32 @@ Emitters::Emitters(const Scene& scene) : impl_(std::make_shared<const Impl>(scen
 
 bool Emitters::empty(Among among) const { return impl_->table(among).empty(); }
 
-LightSample Emitters::sample(const Vec3& from, float u_choice, Vec2 u, Among among) const {
-  const AliasTable& table = impl_->table(among);
-  const std::uint32_t i = table.sample(u_choice);
-  LightSample s =
-      i < impl_->peaks() ? impl_->sample_triangle(impl_->triangles[i], from, u) : impl_->sample_environment(i, u);
-  s.pdf *= table.probability(i);
+LightSample Emitters::Impl::sample_few(const Vec3& from, float u_choice, Vec2 u, Among among) const {
+  const float chance = few_chance(among), peak = table(among).probability(static_cast<std::uint32_t>(peaks()));
+  if (u_choice >= chance && !environment.empty()) {
+    const std::size_t kind = u_choice < chance + peak ? peaks() : rest();
+    LightSample s = sample_environment(kind, u);
+    s.pdf *= table(among).probability(static_cast<std::uint32_t>(kind));
+    return s;
+  }
+  const LampChoice choice(triangles, mean_radiances, from);
+  if (choice.empty()) return {};
+  const std::uint32_t i = choice.sample(u_choice / chance);
+  LightSample s = sample_lamp(scene, triangles[i], choice.solid_angle(i), from, u);
+  s.pdf *= chance * choice.chance(i);
   return s;
+}
+
+LightSample Emitters::Impl::sample_many(const Vec3& from, float u_choice, Vec2 u, Among among) const {
+  const std::uint32_t i = table(among).sample(u_choice);
+  LightSample s = i < peaks() ? sample_lamp(scene, triangles[i], lamp_solid_angle(triangles[i], from), from, u)
+                              : sample_environment(i, u);
+  s.pdf *= table(among).probability(i);
+  return s;
+}
+
+LightSample Emitters::sample(const Vec3& from, float u_choice, Vec2 u, Among among) const {
+  return impl_->few() ? impl_->sample_few(from, u_choice, u, among) : impl_->sample_many(from, u_choice, u, among);
 }
 
 int Emitters::punctual_samples() const { return impl_->punctual.samples(); }
@@ -150,8 +171,12 @@ float Emitters::triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direc
   const std::uint32_t i = impl_->emitter_of[first + hit.triangle];
   if (i == none) return 0;
   const EmissiveTriangle& t = impl_->triangles[i];
-  return impl_->table(among).probability(i) *
-         impl_->pdf(t, from, t.origin + t.edge1 * hit.u + t.edge2 * hit.v, direction);
+  const Vec3 to = t.origin + t.edge1 * hit.u + t.edge2 * hit.v;
+  if (!impl_->few())
+    return impl_->table(among).probability(i) * lamp_pdf(t, lamp_solid_angle(t, from), from, to, direction);
+  const LampChoice choice(impl_->triangles, impl_->mean_radiances, from);
+  if (choice.empty()) return 0;
+  return impl_->few_chance(among) * choice.chance(i) * lamp_pdf(t, choice.solid_angle(i), from, to, direction);
 }
 
 float Emitters::environment_pdf(const Vec3& direction, Among among) const {

@@ -22,11 +22,12 @@ struct LightSample {
 };
 
 /// All that emits. Emissive triangles (textures averaged over them) and the environment are chosen by power, with a
-/// tenth of the choice to all alike; the environment is split in two: its peaks (all sun-like texels together) and the
-/// rest. Punctual lights are sampled beside them, by themselves. Lamps, punctual lights and peaks are
-/// `sampled_directly`: their light scattered once is direct light. The rest of the environment is not: it is seen by
-/// gathers and cached. Never both. The rest is chosen with a chance of at most 1/2 beside others: power cannot know how
-/// much of the sky is hidden, and rays chosen by the BSDF find it too.
+/// tenth of the choice to all alike; triangles, where they are few, among themselves by what they may send to the point
+/// (`LampChoice`). The environment is split in two: its peaks (all sun-like texels together) and the rest. Punctual
+/// lights are sampled beside them, by themselves. Lamps, punctual lights and peaks are `sampled_directly`: their light
+/// scattered once is direct light. The rest of the environment is not: it is seen by gathers and cached. Never both.
+/// The rest is chosen with a chance of at most 1/2 beside others: power cannot know how much of the sky is hidden, and
+/// rays chosen by the BSDF find it too.
 class Emitters {
  public:
   /// What `sample` chooses among.
@@ -62,8 +63,8 @@ class Emitters {
 
   /// Is `from` so near to an emissive triangle that light sampling alone would be noisy there, so that a ray chosen by
   /// the BSDF should share the work? True at least wherever a cosine-distributed ray could meet an emitter with four
-  /// times the density of `sample(..., sampled_directly)`. False means: sampling lights has bounded variance and its
-  /// weight may be 1.
+  /// times the density of `sample(..., sampled_directly)`; nowhere where triangles are few and chosen for the point.
+  /// False means: sampling lights has bounded variance and its weight may be 1.
   bool near(const Vec3& from) const;
 
  private:
