@@ -15,8 +15,8 @@ PARTS = ("swept+order=1", "swept+aspect=1", "swept+aspect=1+order=1", "uniform+o
 
 
 # What was computed by other sources is no result of these.
-SOURCES = subprocess.run(["git", "rev-parse", "--short", "HEAD:src", "HEAD:bench/comparison"], cwd=ROOT, capture_output=True, text=True,
-                         check=True).stdout.strip().replace("\n", "-")
+SOURCES = "-".join(name[:8] for name in subprocess.run(["git", "rev-parse", "HEAD:src", "HEAD:bench/comparison"], cwd=ROOT, capture_output=True,
+                                                       text=True, check=True).stdout.split())
 
 
 class Scene:
