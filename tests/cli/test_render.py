@@ -106,6 +106,8 @@ class Statistics(ProgramTest):
             self.assertEqual(error["asked"], 0.05)
             self.assertGreaterEqual(error["points"], 8)
             self.assertGreaterEqual(error["p95"], error["median"])
+            self.assertGreaterEqual(error["largest"]["error"], error["p95"])
+            self.assertTrue(all(0 <= at < size for at, size in zip(error["largest"]["pixel"], (stats["width"], stats["height"]), strict=True)), error)
             self.assertGreater(error["mean"], 0)
             self.assertLess(abs(error["bias"]), 0.5)
 

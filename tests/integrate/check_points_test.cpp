@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "integrate/stage.h"
+#include "isophote/integrate/make_record.h"
 #include "support/scenes.h"
 
 namespace isophote::test {
@@ -41,6 +42,22 @@ TEST(CheckPoints, MeasuresWhatAScaledCacheIsOffBy) {
     EXPECT_NEAR(error.bias, factor - 1, 1e-5);
     EXPECT_NEAR(error.noise, 0, 1e-6);
   }
+}
+
+TEST(CheckPoints, SayWhereTheLargestErrorIsSeen) {
+  const Stage stage(plane_under_sky());
+  const Job job = stage.job(method("uniform", 0.1), 64, 64, 1);
+  RecordCache cache = render_all(job).cache;
+  for (Record& record : cache.settling().records)
+    if (record.position.x > 0) record.jet.value *= 1.5f;
+  const MeasuredError error = check_points(job, cache, 1000000);
+  EXPECT_NEAR(error.largest, 0.5 / 1.01, 1e-3);
+  Sampler stream(1, 0);
+  RayCounts counts;
+  const Vec2 pixel{static_cast<float>(error.largest_x) + 0.5f, static_cast<float>(error.largest_y) + 0.5f};
+  const auto place = place_at(job, pixel, stream, 0, counts);
+  ASSERT_TRUE(place);
+  EXPECT_GT(place->position.x, 0);
 }
 
 TEST(CheckPoints, InAFurnaceMeasureNoMoreThanNoise) {

@@ -37,10 +37,11 @@ void Statistics::print() const {
   if (error.points > 0)
     fmt::print(
         "  error      {}{}measured {:.3g} at {} random visible points (median {:.3g}, 95th percentile {:.3g}, "
-        "bias {:+.3g}; the measurement's own noise is {:.2g})\n",
+        "largest {:.3g} at pixel {},{}, bias {:+.3g}; the measurement's own noise is {:.2g})\n",
         error_asked ? fmt::format("asked {:.3g}, ", *error_asked) : "",
         refinements ? fmt::format("after {} refinement{} ", refinements, refinements == 1 ? "" : "s") : "", error.mean,
-        error.points, error.median, error.p95, error.bias, error.noise);
+        error.points, error.median, error.p95, error.largest, error.largest_x, error.largest_y, error.bias,
+        error.noise);
   if (checked && error.points == 0) fmt::print("  error      no visible point could be measured\n");
   if (error.points == 0 || !error_asked) return;
   if (error.exceeds(*error_asked))
@@ -102,8 +103,14 @@ void Statistics::write_json(const std::string& path) const {
                           {"leak_test", leak_test}};
   const Json asked = error_asked ? Json(*error_asked) : Json(nullptr);
   if (error.points > 0)
-    json["error"] = {{"asked", asked},     {"mean", error.mean},   {"median", error.median}, {"p95", error.p95},
-                     {"bias", error.bias}, {"noise", error.noise}, {"points", error.points}};
+    json["error"] = {{"asked", asked},
+                     {"mean", error.mean},
+                     {"median", error.median},
+                     {"p95", error.p95},
+                     {"largest", {{"error", error.largest}, {"pixel", {error.largest_x, error.largest_y}}}},
+                     {"bias", error.bias},
+                     {"noise", error.noise},
+                     {"points", error.points}};
   else if (!estimator.empty())
     json["error"] = {{"asked", asked}, {"points", 0}};
   AtomicFile file(path);

@@ -19,6 +19,7 @@ constexpr std::size_t between_stops = 64;  // points, after which the host is as
 struct CheckPoint {
   bool valid = false;
   double cached = 0, reference = 0, noise = 0;
+  Vec2 pixel;
 };
 
 /// Rays for a reference whose own error is about half of what a record here would have, and more where records read
@@ -36,12 +37,18 @@ double reference(const Job& job, const Place& place, int rays, std::uint64_t key
   return luminance(sum) * std::numbers::pi / gather.strata.size();
 }
 
-/// A random visible point; none where chance finds nothing but sky and mirrors.
-std::optional<Place> check_place(const Job& job, std::uint64_t key, std::size_t index, RayCounts& rays) {
+/// A random visible point and where the picture shows it; none where chance finds nothing but sky and mirrors.
+struct Seen {
+  Vec2 pixel;
+  Place place;
+};
+std::optional<Seen> random_point(const Job& job, std::uint64_t key, std::size_t index, RayCounts& rays) {
   constexpr int most_tries = 64;
   Sampler stream(key, static_cast<std::uint32_t>(index));
-  for (int i = 0; i < most_tries; ++i)
-    if (const auto place = random_place(job, stream, hash(key, index), rays)) return place;
+  for (int i = 0; i < most_tries; ++i) {
+    const Vec2 at = stream.next2(), pixel{at.x * job.width, at.y * job.height};
+    if (const auto place = place_at(job, pixel, stream, hash(key, index), rays)) return Seen{pixel, *place};
+  }
   return std::nullopt;
 }
 
@@ -50,14 +57,14 @@ CheckPoint check_point(const Job& job, const RecordCache& cache, int turn, std::
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::check), job.seed, turn);
   RayCounts rays;
   CheckPoint result;
-  if (const std::optional<Place> place = check_place(job, key, index, rays)) {
-    if (const auto cached = cache.interpolate(query_at(*place), LeakTest{job.world, rays})) {
+  if (const std::optional<Seen> seen = random_point(job, key, index, rays)) {
+    if (const auto cached = cache.interpolate(query_at(seen->place), LeakTest{job.world, rays})) {
       HemisphereGather scratch;
-      const int half = reference_rays(job, cache, *place) / 2;
-      const double a = reference(job, *place, half, hash(key, index, 0), scratch, rays);
-      const double b = reference(job, *place, half, hash(key, index, 1), scratch, rays);
+      const int half = reference_rays(job, cache, seen->place) / 2;
+      const double a = reference(job, seen->place, half, hash(key, index, 0), scratch, rays);
+      const double b = reference(job, seen->place, half, hash(key, index, 1), scratch, rays);
       // Half the difference of two is as wide as their mean's error, whatever strata and paths have in common.
-      result = {true, luminance(Rgbd(*cached)), (a + b) / 2, std::abs(a - b) / 2};
+      result = {true, luminance(Rgbd(*cached)), (a + b) / 2, std::abs(a - b) / 2, seen->pixel};
     }
   }
   counts.check += rays.total();
@@ -77,6 +84,10 @@ MeasuredError summary(const std::vector<CheckPoint>& points) {
     const double scale = p.reference + floor;
     errors.push_back(scale > 0 ? std::abs(p.cached - p.reference) / scale : (p.cached == 0 ? 0.0 : 1.0));
     error.mean += errors.back() / error.points;
+    if (errors.back() >= error.largest) {
+      error.largest = errors.back();
+      error.largest_x = static_cast<int>(p.pixel.x), error.largest_y = static_cast<int>(p.pixel.y);
+    }
     error.noise += scale > 0 ? p.noise / scale / error.points : 0;
   }
   std::sort(errors.begin(), errors.end());

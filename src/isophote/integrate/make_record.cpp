@@ -16,10 +16,14 @@ std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint6
   return Place{p.position, p.geometric_normal, p.shading_normal, pixel, p.offset, p.medium, key};
 }
 
+std::optional<Place> place_at(const Job& job, Vec2 pixel, Sampler& stream, std::uint64_t key, RayCounts& counts) {
+  const Ray ray = job.camera.ray(pixel.x, pixel.y, job.width, job.height);
+  return place_of(job, first_point(job.world, ray, true, stream, counts.camera), key);
+}
+
 std::optional<Place> random_place(const Job& job, Sampler& stream, std::uint64_t key, RayCounts& counts) {
   const Vec2 at = stream.next2();
-  const Ray ray = job.camera.ray(at.x * job.width, at.y * job.height, job.width, job.height);
-  return place_of(job, first_point(job.world, ray, true, stream, counts.camera), key);
+  return place_at(job, {at.x * job.width, at.y * job.height}, stream, key, counts);
 }
 
 View view_of(const Job& job, const Place& place) {
