@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <functional>
 
 #include "support/analytic_room.h"
+#include "support/imagined_gather.h"
 
 namespace isophote::test {
 namespace {
@@ -13,23 +13,6 @@ namespace {
 using Walls = AnalyticRoom::Walls;
 
 Vec3d channel(const Gradient<Rgb>& g, int c = 0) { return {g.x[c], g.y[c], g.z[c]}; }
-
-/// A gather whose samples are what `see` says of the cell (j, k), about z at the origin.
-HemisphereGather imagine(Strata strata, const std::function<GatherSample(int, int)>& see) {
-  HemisphereGather gather{{}, Frame(Vec3{0, 0, 1}), strata, {}};
-  for (int j = 0; j < strata.polar; ++j)
-    for (int k = 0; k < strata.azimuthal; ++k) {
-      gather.samples.push_back(see(j, k));
-      gather.samples.back().direction = strata.direction(j, k, {0.5f, 0.5f});
-    }
-  return gather;
-}
-GatherSample seen(float radiance, float distance = 1) {
-  GatherSample sample;
-  sample.radiance = Rgb(radiance);
-  sample.distance = distance;
-  return sample;
-}
 
 // Values of an independent program. Samples and results are floats and the arithmetic between them is double, so what
 // can be asked is the rounding of the result, and in the gradients a little more: they are differences of rounded
@@ -258,64 +241,12 @@ TEST(WardHeckbert, ChannelsDoNotMix) {
   }
 }
 
-// A wall between a surface and the sky moves as the surface does; between two pieces of sky nothing moves.
-TEST(WardHeckbert, OpenSky) {
-  const Strata strata{16, 50};
-  const auto half = [&](float other_distance) {
-    return ward_heckbert_1992(
-        imagine(strata, [&](int, int k) { return k < 25 ? seen(1, other_distance) : seen(0, 2); }),
-        RotationWeights::exact);
-  };
-  const Jet<Rgb> sky = half(infinity), near = half(2);
-  EXPECT_EQ(channel(sky.translational), channel(near.translational));
-  EXPECT_GT(length(channel(sky.translational)), 0);
-  EXPECT_FLOAT_EQ(sky.distances.harmonic_mean, 4);
-
-  const Jet<Rgb> open = ward_heckbert_1992(
-      imagine(strata, [&](int j, int k) { return seen(static_cast<float>(j + k), infinity); }), RotationWeights::exact);
-  EXPECT_EQ(channel(open.translational), Vec3d());
-  EXPECT_GT(length(channel(open.rotational)), 0);
-  EXPECT_TRUE(is_finite(channel(open.rotational)));
-  EXPECT_EQ(open.distances.harmonic_mean, infinity);
-}
-
-// Where the interpolated normal leans over the surface itself, the directions under that surface see nothing; their rim
-// goes with the record and moves nothing.
-TEST(WardHeckbert, TheSurfaceItselfIsNoEdge) {
-  GatherSample own = seen(0, infinity);
-  own.surface = GatherSample::own_surface;
-  const HemisphereGather gather = imagine({16, 50}, [&](int j, int k) { return j > 10 && k < 20 ? own : seen(1, 2); });
-  EXPECT_EQ(channel(ward_heckbert_1992(gather, RotationWeights::exact).translational), Vec3d());
-}
-
 TEST(WardHeckbert, HarmonicMeanDistance) {
   const HemisphereGather gather = imagine({2, 4}, [](int j, int k) {
     return seen(1, k == 0 ? 0.5f : j == 0 ? 1.0f : 4.0f);
   });
   EXPECT_FLOAT_EQ(irradiance(gather).distances.harmonic_mean, 8 / (2 / 0.5f + 3 / 1.0f + 3 / 4.0f));
   EXPECT_EQ(channel(irradiance(gather).translational), Vec3d());
-}
-
-// Over every count of rings the horizon's cosine is exactly zero, and no direction leaves the hemisphere.
-TEST(StrataEdges, NothingIsTheRootOfANegativeNumber) {
-  for (int m = 1; m <= 200; ++m) {
-    const Strata strata{m, 4};
-    EXPECT_EQ(strata.cos_edge(m), 0.0);
-    EXPECT_EQ(strata.sin_edge(m), 1.0);
-    EXPECT_EQ(strata.sin_edge(0), 0.0);
-    for (int j = 0; j < m; ++j) {
-      EXPECT_LT(strata.theta_edge(j), strata.theta_edge(j + 1));
-      EXPECT_NEAR(std::pow(strata.sin_edge(j), 2) + std::pow(strata.cos_edge(j), 2), 1, 1e-15);
-      for (const float u : {0.0f, 0.5f, 0x1.fffffep-1f}) {
-        const Vec3 w = strata.direction(j, 3, {u, u});
-        EXPECT_TRUE(is_finite(w) && w.z >= 0);
-        EXPECT_NEAR(length(w), 1, 2e-7);
-      }
-    }
-    const Jet<Rgb> jet =
-        ward_heckbert_1992(imagine(strata, [](int j, int k) { return seen(j % 3 + k, 1.0f); }), RotationWeights::exact);
-    EXPECT_TRUE(is_finite(channel(jet.translational)) && is_finite(channel(jet.rotational)));
-  }
 }
 
 }  // namespace
