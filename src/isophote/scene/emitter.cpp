@@ -63,10 +63,8 @@ Emitters::Impl::Impl(const Scene& scene_) : scene(scene_), environment(scene_.en
   weights.push_back(pi * radius * radius * environment.peak_power());
   weights.push_back(pi * radius * radius * environment.rest_power());
   make_tables(std::move(weights));
-  if (triangles.size() <= LampChoice::most)
-    prepare_few(powers);
-  else
-    near = grid_of_near(bounds);
+  if (triangles.size() <= LampChoice::most) prepare_few(powers);
+  near = grid_of_near(bounds);
 }
 
 void Emitters::Impl::prepare_few(std::span<const double> powers) {
@@ -133,8 +131,8 @@ bool Emitters::empty(Among among) const { return impl_->table(among).empty(); }
 
 LightSample Emitters::Impl::sample_few(const Vec3& from, float u_choice, Vec2 u, Among among) const {
   const float chance = few_chance(among), peak = table(among).probability(static_cast<std::uint32_t>(peaks()));
-  if (u_choice >= chance && !environment.empty()) {
-    const std::size_t kind = u_choice < chance + peak ? peaks() : rest();
+  if (u_choice >= chance) {  // shares are multiples of 2^-24, as u_choice is: where there are only lamps, chance is 1
+    const std::size_t kind = among == Among::sampled_directly || u_choice < chance + peak ? peaks() : rest();
     LightSample s = sample_environment(kind, u);
     s.pdf *= table(among).probability(static_cast<std::uint32_t>(kind));
     return s;
@@ -142,15 +140,14 @@ LightSample Emitters::Impl::sample_few(const Vec3& from, float u_choice, Vec2 u,
   const LampChoice choice(triangles, mean_radiances, from);
   if (choice.empty()) return {};
   const std::uint32_t i = choice.sample(u_choice / chance);
-  LightSample s = sample_lamp(scene, triangles[i], choice.solid_angle(i), from, u);
+  LightSample s = sample_lamp(scene, triangles[i], from, u);
   s.pdf *= chance * choice.chance(i);
   return s;
 }
 
 LightSample Emitters::Impl::sample_many(const Vec3& from, float u_choice, Vec2 u, Among among) const {
   const std::uint32_t i = table(among).sample(u_choice);
-  LightSample s = i < peaks() ? sample_lamp(scene, triangles[i], lamp_solid_angle(triangles[i], from), from, u)
-                              : sample_environment(i, u);
+  LightSample s = i < peaks() ? sample_lamp(scene, triangles[i], from, u) : sample_environment(i, u);
   s.pdf *= table(among).probability(i);
   return s;
 }
@@ -172,11 +169,10 @@ float Emitters::triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direc
   if (i == none) return 0;
   const EmissiveTriangle& t = impl_->triangles[i];
   const Vec3 to = t.origin + t.edge1 * hit.u + t.edge2 * hit.v;
-  if (!impl_->few())
-    return impl_->table(among).probability(i) * lamp_pdf(t, lamp_solid_angle(t, from), from, to, direction);
+  if (!impl_->few()) return impl_->table(among).probability(i) * lamp_pdf(t, from, to, direction);
   const LampChoice choice(impl_->triangles, impl_->mean_radiances, from);
   if (choice.empty()) return 0;
-  return impl_->few_chance(among) * choice.chance(i) * lamp_pdf(t, choice.solid_angle(i), from, to, direction);
+  return impl_->few_chance(among) * choice.chance(i) * lamp_pdf(t, from, to, direction);
 }
 
 float Emitters::environment_pdf(const Vec3& direction, Among among) const {

@@ -63,8 +63,8 @@ class Emitters {
 
   /// Is `from` so near to an emissive triangle that light sampling alone would be noisy there, so that a ray chosen by
   /// the BSDF should share the work? True at least wherever a cosine-distributed ray could meet an emitter with four
-  /// times the density of `sample(..., sampled_directly)`; nowhere where triangles are few and chosen for the point.
-  /// False means: sampling lights has bounded variance and its weight may be 1.
+  /// times the density of `sample(..., sampled_directly)` if that chose by power alone. False means: sampling lights
+  /// has bounded variance and its weight may be 1.
   bool near(const Vec3& from) const;
 
  private:

@@ -3,20 +3,42 @@
 #include <algorithm>
 #include <cmath>
 
+#include "isophote/core/check.h"
 #include "isophote/sampling/spherical_triangle.h"
 #include "isophote/sampling/warp.h"
 
 namespace isophote {
 namespace {
 
-bool shines(const EmissiveTriangle& t, const Vec3& direction) {
-  const float cosine = -dot(t.normal, direction);
-  return cosine > 0 || (cosine < 0 && t.double_sided);
+/// Does the bright side face a point that lies in a direction from the triangle's first corner, of any length? In its
+/// own plane rounding must not decide.
+bool shines(const EmissiveTriangle& t, const Vec3& to_corner) {
+  constexpr float in_plane = 1e-6f;
+  const float height = -dot(t.normal, to_corner);
+  return std::abs(height) > in_plane * length(to_corner) && (height > 0 || t.double_sided);
 }
 
-/// Below the first, area serves as well and costs less; above the second, next to the plane, no direction can be told
-/// from another.
-bool by_solid_angle(float solid_angle) { return solid_angle > 0.01f && solid_angle < 2 * pi - 1e-3f; }
+/// A triangle that is all about as far away is seen as evenly through its area, which costs less. Next to no solid
+/// angle, or next to a half space, directions could not be told apart.
+bool by_solid_angle(const EmissiveTriangle& t, const Vec3& from, double solid_angle) {
+  const float longest = std::max({length_squared(t.edge1), length_squared(t.edge2), length_squared(t.edge2 - t.edge1)});
+  return longest > 0.1f * length_squared(t.origin - from) && solid_angle > 1e-6 && solid_angle < 2 * M_PI - 1e-5;
+}
+
+double exact_solid_angle(const EmissiveTriangle& t, const Vec3& from) {
+  const Vec3d a(t.origin - from);
+  return solid_angle(a, a + Vec3d(t.edge1), a + Vec3d(t.edge2));
+}
+
+/// The same but for a factor between 1 and pi / 2, for a third of the price: the arc tangent of y / x as that of a
+/// straight line between its ends.
+float about_solid_angle(const EmissiveTriangle& t, const Vec3& from) {
+  const Vec3d a(t.origin - from), b = a + Vec3d(t.edge1), c = a + Vec3d(t.edge2);
+  const double la = length(a), lb = length(b), lc = length(c);
+  const double y = 2 * t.area * std::abs(dot(Vec3d(t.normal), a));
+  const double x = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return static_cast<float>(x > 0 ? pi * y / (x + y) : 2 * pi - pi * y / (y - x));
+}
 
 /// The barycentric coordinates of the point of the triangle that lies in a direction.
 Vec2 where(const EmissiveTriangle& t, const Vec3& from, const Vec3d& direction) {
@@ -26,26 +48,28 @@ Vec2 where(const EmissiveTriangle& t, const Vec3& from, const Vec3d& direction) 
   return {static_cast<float>(x), static_cast<float>(std::clamp(dot(direction, q) / determinant, 0.0, 1 - x))};
 }
 
+/// `solid_angle`: the lamp's.
+float density(const EmissiveTriangle& lamp, double solid_angle, const Vec3& from, const Vec3& to,
+              const Vec3& direction) {
+  if (by_solid_angle(lamp, from, solid_angle)) return static_cast<float>(1 / solid_angle);
+  const float cosine = std::abs(dot(lamp.normal, direction));
+  return cosine > 0 ? length_squared(to - from) / (lamp.area * cosine) : 0.0f;
+}
+
 }  // namespace
 
-float lamp_solid_angle(const EmissiveTriangle& lamp, const Vec3& from) {
-  const Vec3 to = lamp.origin - from;
-  if (!shines(lamp, to)) return 0;
-  return static_cast<float>(solid_angle(Vec3d(to), Vec3d(to + lamp.edge1), Vec3d(to + lamp.edge2)));
+float lamp_pdf(const EmissiveTriangle& lamp, const Vec3& from, const Vec3& to, const Vec3& direction) {
+  if (!shines(lamp, lamp.origin - from)) return 0;
+  return density(lamp, exact_solid_angle(lamp, from), from, to, direction);
 }
 
-float lamp_pdf(const EmissiveTriangle& lamp, float solid_angle, const Vec3& from, const Vec3& to,
-               const Vec3& direction) {
-  if (!shines(lamp, direction)) return 0;
-  if (by_solid_angle(solid_angle)) return 1 / solid_angle;
-  return length_squared(to - from) / (lamp.area * std::abs(dot(lamp.normal, direction)));
-}
-
-LightSample sample_lamp(const Scene& scene, const EmissiveTriangle& lamp, float solid_angle, const Vec3& from, Vec2 u) {
+LightSample sample_lamp(const Scene& scene, const EmissiveTriangle& lamp, const Vec3& from, Vec2 u) {
+  if (!shines(lamp, lamp.origin - from)) return {};
+  const double angle = exact_solid_angle(lamp, from);
   Vec2 b;
-  if (by_solid_angle(solid_angle)) {
+  if (by_solid_angle(lamp, from, angle)) {
     const Vec3d a(lamp.origin - from), e1(lamp.edge1), e2(lamp.edge2);
-    b = where(lamp, from, uniform_spherical_triangle(a, a + e1, a + e2, solid_angle, u));
+    b = where(lamp, from, uniform_spherical_triangle(a, a + e1, a + e2, angle, u));
   } else {
     b = uniform_triangle(u);
   }
@@ -53,22 +77,23 @@ LightSample sample_lamp(const Scene& scene, const EmissiveTriangle& lamp, float 
   const float distance = length(to - from);
   if (!(distance > 0)) return {};
   const Vec3 direction = (to - from) / distance;
-  const float density = lamp_pdf(lamp, solid_angle, from, to, direction);
-  if (!(density > 0)) return {};
+  const float pdf = density(lamp, angle, from, to, direction);
+  if (!(pdf > 0)) return {};
   const Rgb radiance = lamp.varies ? covered_emission(scene, {lamp.mesh, lamp.triangle, b.x, b.y}) : lamp.radiance;
   const float lift = ray_offset(to, lamp.origin, lamp.edge1, lamp.edge2, distance);
   const Vec3 end = to + lamp.normal * std::copysign(lift, -dot(lamp.normal, direction));
-  return {direction, distance, radiance, density, false, true, end};
+  return {direction, distance, radiance, pdf, false, true, end};
 }
 
 LampChoice::LampChoice(std::span<const EmissiveTriangle> lamps, std::span<const float> mean_radiances, const Vec3& from)
     : count_(static_cast<std::uint32_t>(lamps.size())) {
+  ISOPHOTE_CHECK(lamps.size(), <=, most);
+  ISOPHOTE_CHECK(lamps.size(), ==, mean_radiances.size());
   constexpr float alike = 0.1f;
   float sum = 0;
   int shining = 0;
   for (std::uint32_t i = 0; i < count_; ++i) {
-    solid_angles_[i] = lamp_solid_angle(lamps[i], from);
-    chances_[i] = mean_radiances[i] * solid_angles_[i];
+    chances_[i] = shines(lamps[i], lamps[i].origin - from) ? mean_radiances[i] * about_solid_angle(lamps[i], from) : 0;
     sum += chances_[i], shining += chances_[i] > 0;
   }
   if (!(sum > 0)) return;
