@@ -46,19 +46,20 @@ class Results:
         return "fixed" if rays == self.exact_rays else "paths"
 
     def fixed_points(self, scene, light):
-        path = self.folder / f"points-{scene.name}-{scene.content}-{scene.size}-{light}.txt"
+        path = self.folder / f"points-{scene.name}-{scene.content}-{scene.size}-{light}-{self.points}-{self.point_rays}.txt"
         if not path.exists():
             subprocess.run([PROGRAM, "points", scene.path, scene.size, light, str(self.points), str(self.point_rays), path], check=True)
         return path
 
     def measured(self, scene, rays, seed, variants, counts, pictures=None):
         """The rows that `bench_figures equal` prints, from an earlier run if there was one."""
-        asked = [scene.size, str(seed), str(rays), ",".join(variants), ",".join(map(str, counts)), str(bool(pictures))]
+        light = self.light(rays)
+        points = self.fixed_points(scene, light)
+        asked = [scene.size, str(seed), str(rays), ",".join(variants), ",".join(map(str, counts)), str(bool(pictures)), points.name]
         key = hashlib.sha256(" ".join(asked).encode()).hexdigest()[:8]
         path = self.folder / f"equal-{scene.name}-{scene.content}-{rays}-{seed}-{key}.jsonl"
         if not path.exists():
-            light = self.light(rays)
-            command = [PROGRAM, "equal", scene.path, scene.size, light, str(seed), str(rays), self.fixed_points(scene, light), asked[3], asked[4]]
+            command = [PROGRAM, "equal", scene.path, scene.size, light, str(seed), str(rays), points, asked[3], asked[4]]
             if pictures:
                 pictures.mkdir(parents=True, exist_ok=True)
                 command.append(pictures)
@@ -96,7 +97,7 @@ def comparison(results, scene, rays, variants):
 
 
 def methods(results):
-    """Every preset on three scenes, with near-exact records and with the default number of rays."""
+    """Every preset on three scenes, with near-exact records and with the default number of rays; most parts of `swept` with the latter alone."""
     parts = ["## 2. All methods at equal numbers of records\n"]
     for scene in results.scenes:
         parts.append(comparison(results, scene, results.exact_rays, PRESETS + PARTS[:1]))

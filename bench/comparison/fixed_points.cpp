@@ -33,7 +33,7 @@ std::vector<FixedPoint> make_points(const Job& job, std::size_t count, int rays)
   RayCounts counts;
   for (std::size_t index = 0; places.size() < count && index < 100 * count; ++index) {
     Sampler stream(stream_of_points, static_cast<std::uint32_t>(index));
-    if (const auto place = random_place(job, stream, 0, counts)) places.push_back(*place);
+    if (const auto seen = random_place(job, stream, 0, counts)) places.push_back(seen->place);
   }
   std::vector<FixedPoint> points(places.size());
   for_each(job.parallel, places.size(), 1, [&](std::size_t i, RayCounts& each) {

@@ -17,15 +17,20 @@ constexpr const char* usage =
     "       bench_figures equal SCENE SIZE LIGHT SEED RAYS FILE VARIANT,... COUNT,... [PICTURES]\n"
     "where gathers hit they follow paths, or read one fine cache: LIGHT is paths or fixed\n";
 
+bool is_fixed(const std::string& light) {
+  if (light != "fixed" && light != "paths") throw UsageError("LIGHT is paths or fixed, not '" + light + "'");
+  return light == "fixed";
+}
+
 int run(const std::vector<std::string>& arguments) {
   const auto is = [&](const char* verb, std::size_t fewest, std::size_t most) {
     return !arguments.empty() && arguments[0] == verb && arguments.size() > fewest && arguments.size() <= most + 1;
   };
   if (is("points", 6, 6)) {
-    const SetUp scene(arguments[1], arguments[2], arguments[3] == "fixed");
+    const SetUp scene(arguments[1], arguments[2], is_fixed(arguments[3]));
     write_points(arguments[6], make_points(scene.job(), std::stoul(arguments[4]), std::stoi(arguments[5])));
   } else if (is("equal", 8, 9)) {
-    const SetUp scene(arguments[1], arguments[2], arguments[3] == "fixed");
+    const SetUp scene(arguments[1], arguments[2], is_fixed(arguments[3]));
     Job job = scene.job();
     job.seed = std::stoull(arguments[4]);
     job.strata = Strata::about(std::stoi(arguments[5]));

@@ -54,8 +54,9 @@ TEST(CheckPoints, SayWhereTheLargestErrorIsSeen) {
   EXPECT_NEAR(error.largest, 0.5 / 1.01, 1e-3);
   Sampler stream(1, 0);
   RayCounts counts;
-  const Vec2 pixel{static_cast<float>(error.largest_x) + 0.5f, static_cast<float>(error.largest_y) + 0.5f};
-  const auto place = place_at(job, pixel, stream, 0, counts);
+  const auto x = static_cast<float>(error.largest_x), y = static_cast<float>(error.largest_y);
+  const Ray ray = job.camera.ray(x + 0.5f, y + 0.5f, job.width, job.height);
+  const auto place = place_of(job, first_point(job.world, ray, true, stream, counts.camera));
   ASSERT_TRUE(place);
   EXPECT_GT(place->position.x, 0);
 }

@@ -31,12 +31,12 @@ std::vector<Reference> references(const Job& job, std::size_t count) {
       for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
       return luminance(sum) * M_PI / gather.strata.size();
     };
-    std::optional<Place> place;
-    for (std::uint32_t next = 0; !place; ++next) {
+    std::optional<SeenPlace> seen;
+    for (std::uint32_t next = 0; !seen; ++next) {
       Sampler stream(Purpose::test, 0, i, next);
-      place = random_place(job, stream, 0, counts);
+      seen = random_place(job, stream, 0, counts);
     }
-    all[i].place = *place;
+    all[i].place = seen->place;
     all[i].first = irradiance(1), all[i].second = irradiance(2);
   });
   return all;

@@ -37,18 +37,12 @@ double reference(const Job& job, const Place& place, int rays, std::uint64_t key
   return luminance(sum) * std::numbers::pi / gather.strata.size();
 }
 
-/// A random visible point and where the picture shows it; none where chance finds nothing but sky and mirrors.
-struct Seen {
-  Vec2 pixel;
-  Place place;
-};
-std::optional<Seen> random_point(const Job& job, std::uint64_t key, std::size_t index, RayCounts& rays) {
+/// A random visible point; none where chance finds nothing but sky and mirrors.
+std::optional<SeenPlace> random_point(const Job& job, std::uint64_t key, std::size_t index, RayCounts& rays) {
   constexpr int most_tries = 64;
   Sampler stream(key, static_cast<std::uint32_t>(index));
-  for (int i = 0; i < most_tries; ++i) {
-    const Vec2 at = stream.next2(), pixel{at.x * job.width, at.y * job.height};
-    if (const auto place = place_at(job, pixel, stream, hash(key, index), rays)) return Seen{pixel, *place};
-  }
+  for (int i = 0; i < most_tries; ++i)
+    if (const auto seen = random_place(job, stream, hash(key, index), rays)) return seen;
   return std::nullopt;
 }
 
@@ -57,7 +51,7 @@ CheckPoint check_point(const Job& job, const RecordCache& cache, int turn, std::
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::check), job.seed, turn);
   RayCounts rays;
   CheckPoint result;
-  if (const std::optional<Seen> seen = random_point(job, key, index, rays)) {
+  if (const std::optional<SeenPlace> seen = random_point(job, key, index, rays)) {
     if (const auto cached = cache.interpolate(query_at(seen->place), LeakTest{job.world, rays})) {
       HemisphereGather scratch;
       const int half = reference_rays(job, cache, seen->place) / 2;

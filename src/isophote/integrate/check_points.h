@@ -11,7 +11,7 @@ struct MeasuredError {
   double mean = 0, median = 0, p95 = 0;
   double bias = 0;  ///< (mean E - mean E_ref) / mean E_ref
   double largest = 0;
-  int largest_x = 0, largest_y = 0;  ///< the pixel that shows the point of the largest error
+  int largest_x = 0, largest_y = 0;  ///< the pixel in which the point of the largest error is seen
   double noise = 0;  ///< mean error of E_ref itself, in the same measure: what `mean` would be for a perfect cache
   RayCounts rays;
 

@@ -38,7 +38,8 @@ struct Job {
   Strata strata = Strata::about(800);  ///< of each record's gather, unless the method adapts them
   Pilot pilot{};                       ///< of a survey; empty: made before the first record, where one is wanted
   JetMemo* memo = nullptr;             ///< where builds share what their places see; not with secondary caching
-  const RecordCache* light = nullptr;  ///< what gathers read where they hit, unless they read the records made so far
+  const RecordCache* light =
+      nullptr;  ///< what records' gathers read where they hit, unless they read the records so far
   ParallelFor parallel{};
   Progress progress{};
 

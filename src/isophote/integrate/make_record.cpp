@@ -16,14 +16,12 @@ std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint6
   return Place{p.position, p.geometric_normal, p.shading_normal, pixel, p.offset, p.medium, key};
 }
 
-std::optional<Place> place_at(const Job& job, Vec2 pixel, Sampler& stream, std::uint64_t key, RayCounts& counts) {
+std::optional<SeenPlace> random_place(const Job& job, Sampler& stream, std::uint64_t key, RayCounts& counts) {
+  const Vec2 at = stream.next2(), pixel{at.x * job.width, at.y * job.height};
   const Ray ray = job.camera.ray(pixel.x, pixel.y, job.width, job.height);
-  return place_of(job, first_point(job.world, ray, true, stream, counts.camera), key);
-}
-
-std::optional<Place> random_place(const Job& job, Sampler& stream, std::uint64_t key, RayCounts& counts) {
-  const Vec2 at = stream.next2();
-  return place_at(job, {at.x * job.width, at.y * job.height}, stream, key, counts);
+  const auto place = place_of(job, first_point(job.world, ray, true, stream, counts.camera), key);
+  if (!place) return std::nullopt;
+  return SeenPlace{*place, pixel};
 }
 
 View view_of(const Job& job, const Place& place) {

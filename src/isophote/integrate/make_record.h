@@ -9,11 +9,12 @@ namespace isophote {
 /// meets nothing that scatters diffusely.
 std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint64_t key = 0);
 
-/// The place at a point of the picture, in pixels from the top left, if there is one, as `place_of` has it.
-std::optional<Place> place_at(const Job& job, Vec2 pixel, Sampler& stream, std::uint64_t key, RayCounts& counts);
-
-/// The same at a random point of the picture.
-std::optional<Place> random_place(const Job& job, Sampler& stream, std::uint64_t key, RayCounts& counts);
+/// The place at a random point of the picture, if there is one, as `place_of` has it.
+struct SeenPlace {
+  Place place;
+  Vec2 pixel;  ///< from the top left
+};
+std::optional<SeenPlace> random_place(const Job& job, Sampler& stream, std::uint64_t key, RayCounts& counts);
 
 /// How the job sees a record at a place.
 View view_of(const Job& job, const Place& place);

@@ -64,7 +64,7 @@ std::vector<Place> random_places(const Job& job, RayCounts& counts) {
   constexpr std::size_t most_tries = 64 * surveyed_places;
   for (std::size_t i = 0; i < most_tries && places.size() < surveyed_places; ++i) {
     Sampler stream(key, static_cast<std::uint32_t>(i));
-    if (const auto place = random_place(job, stream, hash(key, i), counts)) places.push_back(*place);
+    if (const auto seen = random_place(job, stream, hash(key, i), counts)) places.push_back(seen->place);
   }
   return places;
 }
