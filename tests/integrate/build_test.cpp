@@ -96,6 +96,15 @@ TEST(BuildWithRecords, ComesWithinFivePercent) {
     }
 }
 
+TEST(BuildWithRecords, FindsThresholdsFarBelowAThousandth) {
+  const Stage stage("contact-shadow.glb");  // so smooth that records are many at small thresholds alone
+  Job job = stage.job(method("jarosz2012"), 64, 64, 1);
+  job.strata = Strata::about(400);
+  const Solved solved = build_with_records(job, 900);
+  EXPECT_LT(job.method.settings.a, 1e-3f);
+  EXPECT_NEAR(static_cast<double>(solved.cache.records().size()), 900, 45);
+}
+
 TEST(BuildWithRecords, StopsWhereNoThresholdGivesAsFew) {
   const Stage stage("cornell-box.glb");
   Job job = stage.job(method("cached"), 48, 48, 1);

@@ -73,7 +73,7 @@ constexpr Option table[] = {
      "ignores it",
      [](S& s, T t) { s.error = number<double>(t, 1e-5, 10), s.a.reset(), s.records.reset(); }},
     {"method", "a", "A", "the metric's own threshold, in place of --error",
-     [](S& s, T t) { s.a = number<float>(t, 1e-4, greatest_threshold), s.error.reset(), s.records.reset(); }, true},
+     [](S& s, T t) { s.a = number<float>(t, least_threshold, greatest_threshold), s.error.reset(), s.records.reset(); }, true},
     {"method", "records", "N", "solve for the threshold that gives about N records",
      [](S& s, T t) { s.records = number<int>(t, 1, 10'000'000), s.error.reset(), s.a.reset(); }, true},
     {"method", "rays", "N|auto",

@@ -9,7 +9,7 @@
 namespace isophote {
 namespace {
 
-const double least_log_a = std::log(1e-3), greatest_log_a = std::log(static_cast<double>(greatest_threshold));
+const double least_log_a = std::log(double{least_threshold}), greatest_log_a = std::log(double{greatest_threshold});
 constexpr int most_tries = 10;
 constexpr double close_enough = 0.02;
 
