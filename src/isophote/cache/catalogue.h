@@ -74,7 +74,8 @@ Method find_method(std::string_view name);
 const Estimator& find_estimator(std::string_view name);
 const Metric& find_metric(std::string_view name);
 
-/// Thresholds lie between these: with a greater one, a footprint would be larger than the distances it was derived from.
+/// Thresholds lie between these: with a greater one, a footprint would be larger than the distances it was derived
+/// from.
 inline constexpr float least_threshold = 1e-6f, greatest_threshold = 1;
 /// The threshold by which a metric aims at a wanted mean relative error.
 float threshold(const Metric& metric, double error);
