@@ -30,8 +30,8 @@ double exact_solid_angle(const EmissiveTriangle& t, const Vec3& from) {
   return solid_angle(a, a + Vec3d(t.edge1), a + Vec3d(t.edge2));
 }
 
-/// The same but for a factor between 1 and pi / 2, for a third of the price: the arc tangent of y / x as that of a
-/// straight line between its ends.
+/// The same but for a factor between 0.9 and pi / 2: y / (x + y) stands for the arc tangent of y / x, which costs most.
+/// A choice needs no better.
 float about_solid_angle(const EmissiveTriangle& t, const Vec3& from) {
   const Vec3d a(t.origin - from), b = a + Vec3d(t.edge1), c = a + Vec3d(t.edge2);
   const double la = length(a), lb = length(b), lc = length(c);
