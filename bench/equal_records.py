@@ -12,6 +12,9 @@ COUNTS = (500, 1000, 2000, 4000)
 PRESETS = ("ward1988", "ward1992", "bounded", "jarosz2012", "schwarzhaupt2012", "swept", "uniform", "cached")
 # `swept` with one part after another taken out, and the control with as many orders.
 PARTS = ("swept+order=1", "swept+aspect=1", "swept+aspect=1+order=1", "uniform+order=2")
+# The split sphere's records, extrapolated by nothing, by the surface-area form's gradients, by stratified ones and by swept edges'.
+GRADIENTS = ("ward1988", "ward1988+estimator=surface-area+order=1", "ward1988+estimator=ward-heckbert-exact+order=1",
+             "ward1988+estimator=swept-edges+order=1")
 
 
 # What was computed by other sources is no result of these.
@@ -67,12 +70,14 @@ class Results:
             path.write_text(out)
         return [json.loads(line) for line in path.read_text().splitlines()]
 
-    def errors(self, scene, rays, variants, counts):
-        """By variant and number of records: (mean RMSE in % over seeds, half the range over seeds, records, reference's noise)."""
-        rows = [row for seed in self.seeds for row in self.measured(scene, rays, seed, variants, counts)]
+    def errors(self, scene, rays):
+        """By variant and number of records: mean RMSE in % over seeds, half the range over seeds, records, the references' noise. One run
+        computes all variants, for they share what places see."""
+        variants = PRESETS + (PARTS[:1] if rays == self.exact_rays else PARTS) + GRADIENTS[1:]
+        rows = [row for seed in self.seeds for row in self.measured(scene, rays, seed, variants, self.counts)]
         result = {}
         for variant in variants:
-            for count in counts:
+            for count in self.counts:
                 mine = [row for row in rows if row["variant"] == variant and row["wanted"] == count]
                 rmse = [100 * row["rmse"] for row in mine]
                 result[variant, count] = {"rmse": sum(rmse) / len(rmse), "spread": (max(rmse) - min(rmse)) / 2,
@@ -87,7 +92,7 @@ def cell(entry, count):
 
 
 def comparison(results, scene, rays, variants):
-    errors = results.errors(scene, rays, variants, results.counts)
+    errors = results.errors(scene, rays)
     rows = [[variant] + [cell(errors[variant, count], count) for count in results.counts] for variant in variants]
     noise = errors[variants[0], results.counts[0]]["noise"]
     strata = noise * (2 * results.point_rays / rays) ** 0.5
@@ -118,14 +123,12 @@ def sheet_of_records(results, scene, variants, count, columns):
 
 
 def gradients(results):
-    """The split sphere's records without gradients, with the surface-area form's, with stratified ones and with swept edges'."""
-    variants = ("ward1988", "ward1988+estimator=surface-area+order=1", "ward1988+estimator=ward-heckbert-exact+order=1",
-                "ward1988+estimator=swept-edges+order=1")
+    """The split sphere's records with and without gradients."""
     parts = ["## 3. Gradients\n\nThe same records, placed by the split sphere: extrapolated by nothing (`ward1988`), by gradients in surface-area "
              "form, by stratified gradients, and by swept edges.\n"]
     for scene in results.scenes:
         for rays in (results.exact_rays, 800):
-            parts.append(comparison(results, scene, rays, variants))
+            parts.append(comparison(results, scene, rays, GRADIENTS))
     return "\n".join(parts)
 
 

@@ -11,7 +11,7 @@ GROUPS = (
     ("ray casting (Embree)", r"libembree"),
     ("left out", r"libz|libOpenEXR|libpng|libtbb|ld-linux|libc\.so|libstdc|libtinygltf|Reader|gltf|Json|json|toml|Exr|exr|png|read_|CLI|checksum"),
     ("hit points, materials, textures", r"surface_point|Bsdf|bsdf|ggx|fetch|frame|Corners|opacity|emission\("),
-    ("light sampling", r"Emitters|light_transmittance|shadow_ray|through_sheets|PunctualLights|Environment|NearGrid|AliasTable|Distribution|sample_light|LampChoice|lamp|solid_angle|spherical_triangle"),
+    ("light sampling", r"Emitters|light_transmittance|shadow_ray|through_sheets|PunctualLights|Environment|NearGrid|AliasTable|Distribution|sample_light|FewChoice|lamp|solid_angle|spherical_triangle"),
     ("reading the cache", r"RecordCache|interpolate|footprint|Octree|visit|serving_error|standing|open_between"),
     ("gradients and radii", r"ward_heckbert|swept|Gradient|split_sphere|settle|limit_extrapolation|NeighbourIndex|obstacles|standard_error"),
     ("paths: lobes, sampling, weights", r"scatter|follow|first_point|direct_diffuse|glossy|shade|sample_diffuse|Sampler|trace_on|gather"),

@@ -24,6 +24,16 @@ TEST(SolidAngle, NextToThePlaneIsAHalfSpace) {
   EXPECT_NEAR(solid_angle({1, 0, 1e-9}, {-1, 1, 1e-9}, {-1, -1, 1e-9}), 2 * M_PI, 1e-7);
 }
 
+TEST(SolidAngle, IsAboutWhatTheCheapOneSays) {
+  Random random(3);
+  const auto corner = [&] { return Vec3d(2 * random.next() - 1, 2 * random.next() - 1, 2 * random.next() - 1); };
+  for (int i = 0; i < 100000; ++i) {
+    const Vec3d a = corner(), b = corner(), c = corner();
+    const double ratio = about_solid_angle(a, b, c) / solid_angle(a, b, c);
+    ASSERT_TRUE(ratio > 0.93 && ratio < M_PI / 2 + 1e-6) << ratio;
+  }
+}
+
 void expect_uniform(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const double angle = solid_angle(a, b, c);
   const double side = dot(a, cross(b, c));

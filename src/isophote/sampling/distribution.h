@@ -1,12 +1,26 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include "isophote/core/vec.h"
 
 namespace isophote {
+
+/// Gives a tenth of all weights' sum to those above 0 alike, so that none is so weak beside the others, or so often
+/// hidden, that it could not be chosen. Returns the sum.
+template <class T>
+T share_alike(std::span<T> weights) {
+  constexpr T part = T(0.1);
+  const T sum = std::accumulate(weights.begin(), weights.end(), T(0));
+  T positive = 0;
+  for (const T w : weights) positive += w > 0;
+  for (T& w : weights)
+    if (w > 0) w = (1 - part) * w + part * sum / positive;
+  return sum;
+}
 
 /// Chooses an index with a chance proportional to its weight, in constant time (alias method [Vose 1991]).
 class AliasTable {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace isophote {
 namespace {
@@ -9,15 +10,30 @@ namespace {
 /// The unit vector of the plane of x and y that is orthogonal to the unit vector y, on x's side.
 Vec3d beside(const Vec3d& x, const Vec3d& y) { return normalize(x - y * dot(x, y)); }
 
+/// Half the solid angle that a triangle fills is that of the point (x, y) [van Oosterom, Strackee 1983].
+struct HalfAngle {
+  double x, y;
+
+  HalfAngle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const double la = length(a), lb = length(b), lc = length(c);
+    x = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+    y = std::abs(dot(a, cross(b - a, c - a)));  // of the edges: exact enough for small triangles too
+  }
+};
+
 double side(double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)); }
 
 }  // namespace
 
 double solid_angle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const double la = length(a), lb = length(b), lc = length(c);
-  const double volume = dot(a, cross(b - a, c - a));  // of the edges: exact enough for small triangles too
-  const double other = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  return 2 * std::atan2(std::abs(volume), other);
+  const HalfAngle half(a, b, c);
+  return 2 * std::atan2(half.y, half.x);
+}
+
+// y / (x + y) stands for the arc tangent of y / x, which costs most.
+double about_solid_angle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const auto [x, y] = HalfAngle(a, b, c);
+  return x > 0 ? std::numbers::pi * y / (x + y) : std::numbers::pi * (2 - y / (y - x));
 }
 
 Vec3d uniform_spherical_triangle(const Vec3d& a_, const Vec3d& b_, const Vec3d& c_, double solid_angle, Vec2 u) {

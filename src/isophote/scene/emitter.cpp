@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <string>
 
@@ -63,7 +62,7 @@ Emitters::Impl::Impl(const Scene& scene_) : scene(scene_), environment(scene_.en
   weights.push_back(pi * radius * radius * environment.peak_power());
   weights.push_back(pi * radius * radius * environment.rest_power());
   make_tables(std::move(weights));
-  if (triangles.size() <= LampChoice::most) prepare_few(powers);
+  if (triangles.size() <= FewChoice::most) prepare_few(powers);
   near = grid_of_near(bounds);
 }
 
@@ -104,16 +103,8 @@ void Emitters::Impl::number_triangles() {
 void Emitters::Impl::make_tables(std::vector<double> weights) {
   const double rest_weight = weights.back();
   weights.pop_back();
-  // Part of the choice goes to all emitters alike: none is so weak beside the others that it could not be chosen.
-  constexpr double alike = 0.1;
-  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const auto emitting =
-      static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
-  for (double& w : weights)
-    if (w > 0) w = (1 - alike) * w + alike * total / emitting;
+  const double sum = share_alike(std::span(weights));
   direct = AliasTable(weights);
-  double sum = 0;
-  for (const double w : weights) sum += w;
   weights.push_back(direct.empty() ? rest_weight : std::min(rest_weight, sum));
   all = AliasTable(weights);
 }
@@ -137,7 +128,7 @@ LightSample Emitters::Impl::sample_few(const Vec3& from, float u_choice, Vec2 u,
     s.pdf *= table(among).probability(static_cast<std::uint32_t>(kind));
     return s;
   }
-  const LampChoice choice(triangles, mean_radiances, from);
+  const FewChoice choice = choose_lamp(triangles, mean_radiances, from);
   if (choice.empty()) return {};
   const std::uint32_t i = choice.sample(u_choice / chance);
   LightSample s = sample_lamp(scene, triangles[i], from, u);
@@ -170,7 +161,7 @@ float Emitters::triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direc
   const EmissiveTriangle& t = impl_->triangles[i];
   const Vec3 to = t.origin + t.edge1 * hit.u + t.edge2 * hit.v;
   if (!impl_->few()) return impl_->table(among).probability(i) * lamp_pdf(t, from, to, direction);
-  const LampChoice choice(impl_->triangles, impl_->mean_radiances, from);
+  const FewChoice choice = choose_lamp(impl_->triangles, impl_->mean_radiances, from);
   if (choice.empty()) return 0;
   return impl_->few_chance(among) * choice.chance(i) * lamp_pdf(t, from, to, direction);
 }

@@ -23,7 +23,7 @@ struct LightSample {
 
 /// All that emits. Emissive triangles (textures averaged over them) and the environment are chosen by power, with a
 /// tenth of the choice to all alike; triangles, where they are few, among themselves by what they may send to the point
-/// (`LampChoice`). The environment is split in two: its peaks (all sun-like texels together) and the rest. Punctual
+/// (`choose_lamp`). The environment is split in two: its peaks (all sun-like texels together) and the rest. Punctual
 /// lights are sampled beside them, by themselves. Lamps, punctual lights and peaks are `sampled_directly`: their light
 /// scattered once is direct light. The rest of the environment is not: it is seen by gathers and cached. Never both.
 /// The rest is chosen with a chance of at most 1/2 beside others: power cannot know how much of the sky is hidden, and

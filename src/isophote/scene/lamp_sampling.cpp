@@ -30,16 +30,6 @@ double exact_solid_angle(const EmissiveTriangle& t, const Vec3& from) {
   return solid_angle(a, a + Vec3d(t.edge1), a + Vec3d(t.edge2));
 }
 
-/// The same but for a factor between 0.9 and pi / 2: y / (x + y) stands for the arc tangent of y / x, which costs most.
-/// A choice needs no better.
-float about_solid_angle(const EmissiveTriangle& t, const Vec3& from) {
-  const Vec3d a(t.origin - from), b = a + Vec3d(t.edge1), c = a + Vec3d(t.edge2);
-  const double la = length(a), lb = length(b), lc = length(c);
-  const double y = 2 * t.area * std::abs(dot(Vec3d(t.normal), a));
-  const double x = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  return static_cast<float>(x > 0 ? pi * y / (x + y) : 2 * pi - pi * y / (y - x));
-}
-
 /// The barycentric coordinates of the point of the triangle that lies in a direction.
 Vec2 where(const EmissiveTriangle& t, const Vec3& from, const Vec3d& direction) {
   const Vec3d e1(t.edge1), e2(t.edge2), s(from - t.origin), p = cross(direction, e2), q = cross(s, e1);
@@ -85,33 +75,15 @@ LightSample sample_lamp(const Scene& scene, const EmissiveTriangle& lamp, const 
   return {direction, distance, radiance, pdf, false, true, end};
 }
 
-LampChoice::LampChoice(std::span<const EmissiveTriangle> lamps, std::span<const float> mean_radiances, const Vec3& from)
-    : count_(static_cast<std::uint32_t>(lamps.size())) {
-  ISOPHOTE_CHECK(lamps.size(), <=, most);
+FewChoice choose_lamp(std::span<const EmissiveTriangle> lamps, std::span<const float> mean_radiances,
+                      const Vec3& from) {
   ISOPHOTE_CHECK(lamps.size(), ==, mean_radiances.size());
-  constexpr float alike = 0.1f;
-  float sum = 0;
-  int shining = 0;
-  for (std::uint32_t i = 0; i < count_; ++i) {
-    chances_[i] = shines(lamps[i], lamps[i].origin - from) ? mean_radiances[i] * about_solid_angle(lamps[i], from) : 0;
-    sum += chances_[i], shining += chances_[i] > 0;
-  }
-  if (!(sum > 0)) return;
-  for (std::uint32_t i = 0; i < count_; ++i)
-    if (chances_[i] > 0)
-      chances_sum_ += chances_[i] = (1 - alike) * chances_[i] + alike * sum / static_cast<float>(shining);
-}
-
-std::uint32_t LampChoice::sample(float u) const {
-  const float wanted = u * chances_sum_;
-  float sum = 0;
-  std::uint32_t chosen = 0;
-  for (std::uint32_t i = 0; i < count_; ++i) {
-    if (!(chances_[i] > 0)) continue;
-    chosen = i;
-    if (wanted < (sum += chances_[i])) break;
-  }
-  return chosen;
+  return {lamps.size(), [&](std::uint32_t i) {
+            const EmissiveTriangle& t = lamps[i];
+            if (!shines(t, t.origin - from)) return 0.0f;
+            const Vec3d a(t.origin - from);
+            return mean_radiances[i] * static_cast<float>(about_solid_angle(a, a + Vec3d(t.edge1), a + Vec3d(t.edge2)));
+          }};
 }
 
 }  // namespace isophote

@@ -1,16 +1,14 @@
 #include "isophote/scene/punctual_lights.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
+
+#include "isophote/sampling/few_choice.h"
 
 namespace isophote {
 namespace {
 
-constexpr std::size_t few = 4, several = 32;
-/// Of the choice, to all alike: none is so weak beside the others, or so often hidden, that it could not be chosen.
-constexpr double alike = 0.1;
+constexpr std::size_t few = 4;
 
 float square(float x) { return x * x; }
 
@@ -53,9 +51,7 @@ PunctualLights::PunctualLights(const Scene& scene) : lights_(scene.lights) {
   const double radius = bounds.empty() ? 1.0 : 0.5 * bounds.diagonal();
   std::vector<double> powers;
   for (const PunctualLight& light : lights_) powers.push_back(power(light, radius));
-  const double mean = std::accumulate(powers.begin(), powers.end(), 0.0) / static_cast<double>(powers.size());
-  for (double& p : powers)
-    if (p > 0) p = (1 - alike) * p + alike * mean;
+  share_alike(std::span(powers));
   by_power_ = AliasTable(powers);
 }
 
@@ -66,7 +62,7 @@ int PunctualLights::samples() const {
 
 LightSample PunctualLights::sample(int i, const Vec3& from, float u) const {
   if (lights_.size() <= few) return sample_one(lights_[static_cast<std::size_t>(i)], from);
-  if (lights_.size() <= several) return sample_by_irradiance(from, u);
+  if (lights_.size() <= FewChoice::most) return sample_by_irradiance(from, u);
   const std::uint32_t chosen = by_power_.sample(u);
   LightSample sample = sample_one(lights_[chosen], from);
   sample.pdf *= by_power_.probability(chosen);
@@ -74,25 +70,12 @@ LightSample PunctualLights::sample(int i, const Vec3& from, float u) const {
 }
 
 LightSample PunctualLights::sample_by_irradiance(const Vec3& from, float u) const {
-  std::array<double, several> weights{};
-  double sum = 0;
-  int shining = 0;
-  for (std::size_t i = 0; i < lights_.size(); ++i) {
-    weights[i] = static_cast<double>(max_component(sample_one(lights_[i], from).radiance));
-    sum += weights[i], shining += weights[i] > 0;
-  }
-  if (!(sum > 0 && std::isfinite(sum))) return {};  // infinite on the very place of a light
-  std::size_t chosen = 0;
-  double below = 0, chance = 0;
-  for (std::size_t i = 0; i < lights_.size(); ++i) {
-    if (!(weights[i] > 0)) continue;
-    below += chance;
-    if (chance > 0 && u < below) break;
-    chosen = i;
-    chance = (1 - alike) * weights[i] / sum + alike / shining;
-  }
+  const FewChoice choice(lights_.size(),
+                         [&](std::uint32_t i) { return max_component(sample_one(lights_[i], from).radiance); });
+  if (choice.empty()) return {};  // infinite on the very place of a light
+  const std::uint32_t chosen = choice.sample(u);
   LightSample sample = sample_one(lights_[chosen], from);
-  sample.pdf *= static_cast<float>(chance);
+  sample.pdf *= choice.chance(chosen);
   return sample;
 }
 
