@@ -10,8 +10,8 @@ PROGRAM = ROOT / "build" / "release" / "bench_figures"
 SEEDS = (1, 2, 3)
 COUNTS = (500, 1000, 2000, 4000)
 PRESETS = ("ward1988", "ward1992", "bounded", "jarosz2012", "schwarzhaupt2012", "swept", "uniform", "cached")
-# `swept` with one part after another taken out, and the control with as many orders.
-PARTS = ("swept+order=1", "swept+aspect=1", "swept+aspect=1+order=1", "uniform+order=2")
+# `swept` with one part after another taken out or changed, and the control with as many orders.
+PARTS = ("swept+order=1", "swept+neighbours=0.5", "swept+aspect=1", "swept+aspect=1+order=1", "uniform+order=2")
 # The split sphere's records, extrapolated by nothing, by the surface-area form's gradients, by stratified ones and by swept edges'.
 GRADIENTS = ("ward1988", "ward1988+estimator=surface-area+order=1", "ward1988+estimator=ward-heckbert-exact+order=1",
              "ward1988+estimator=swept-edges+order=1")

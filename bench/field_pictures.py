@@ -72,7 +72,7 @@ def derivatives(results):
 
 def against_path_tracing(results):
     """A picture of a million pixels."""
-    side, samples, reference = (256, 16, 64) if results.trial else (1024, 128, 512)
+    side, samples, reference = (256, 16, 32) if results.trial else (1024, 128, 32)
     view = View("cornell-box", "cornell-box.glb", f"{side}x{side}", reference)
     kept = results.folder / f"million-{side}.json"
     if not kept.exists():
