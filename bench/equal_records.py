@@ -2,6 +2,7 @@
 import hashlib
 import json
 import subprocess
+import sys
 
 import png
 from measure import BUILD, ROOT, table
@@ -18,6 +19,8 @@ GRADIENTS = ("ward1988", "ward1988+estimator=surface-area+order=1", "ward1988+es
 
 
 # What was computed by other sources is no result of these.
+if subprocess.run(["git", "diff", "--quiet", "HEAD", "--", "src", "bench/comparison"], cwd=ROOT).returncode:
+    sys.exit("src or bench/comparison is changed: results are kept by the commit that they are of, so commit first")
 SOURCES = "-".join(name[:8] for name in subprocess.run(["git", "rev-parse", "HEAD:src", "HEAD:bench/comparison"], cwd=ROOT, capture_output=True,
                                                        text=True, check=True).stdout.split())
 
@@ -48,16 +51,20 @@ class Results:
         """Near-exact gathers read one fine cache where they hit, so that their own noise is small; others follow paths."""
         return "fixed" if rays == self.exact_rays else "paths"
 
-    def fixed_points(self, scene, light):
-        path = self.folder / f"points-{scene.name}-{scene.content}-{scene.size}-{light}-{self.points}-{self.point_rays}.txt"
+    def rays_of_points(self, rays):
+        """Of each half of a reference: what its noise adds to a difference cancels, and need not be below that of a few rays."""
+        return self.point_rays if rays == self.exact_rays else self.point_rays // 4
+
+    def fixed_points(self, scene, light, rays):
+        path = self.folder / f"points-{scene.name}-{scene.content}-{scene.size}-{light}-{self.points}-{rays}.txt"
         if not path.exists():
-            subprocess.run([PROGRAM, "points", scene.path, scene.size, light, str(self.points), str(self.point_rays), path], check=True)
+            subprocess.run([PROGRAM, "points", scene.path, scene.size, light, str(self.points), str(rays), path], check=True)
         return path
 
     def measured(self, scene, rays, seed, variants, counts, pictures=None):
         """The rows that `bench_figures equal` prints, from an earlier run if there was one."""
         light = self.light(rays)
-        points = self.fixed_points(scene, light)
+        points = self.fixed_points(scene, light, self.rays_of_points(rays))
         asked = [scene.size, str(seed), str(rays), ",".join(variants), ",".join(map(str, counts)), str(bool(pictures)), points.name]
         key = hashlib.sha256(" ".join(asked).encode()).hexdigest()[:8]
         path = self.folder / f"equal-{scene.name}-{scene.content}-{rays}-{seed}-{key}.jsonl"
@@ -88,14 +95,14 @@ class Results:
 def cell(entry, count):
     text = f"{entry['rmse']:.2f} ± {entry['spread']:.2f}"
     # No threshold gives as many, or as few.
-    return text if abs(entry["records"] / count - 1) < 0.05 else f"{text} ({entry['records']:.0f})"
+    return text if abs(entry["records"] / count - 1) < 0.025 else f"{text} ({entry['records']:.0f})"
 
 
 def comparison(results, scene, rays, variants):
     errors = results.errors(scene, rays)
     rows = [[variant] + [cell(errors[variant, count], count) for count in results.counts] for variant in variants]
     noise = errors[variants[0], results.counts[0]]["noise"]
-    strata = noise * (2 * results.point_rays / rays) ** 0.5
+    strata = noise * (2 * results.rays_of_points(rays) / rays) ** 0.5
     return (f"### {scene.name}, {scene.size}, {rays:,} rays a record\n\n" + table(["RMSE %, by records"] + [f"{count:,}" for count in results.counts], rows) +
             f"\n\nNoise: of the references {noise:.2f} % (taken out), of a record's own value about {strata:.2f} % (in all numbers, less where "
             "several records overlap).\n")
@@ -125,15 +132,15 @@ def sheet_of_records(results, scene, variants, count, columns):
 def gradients(results):
     """The split sphere's records with and without gradients."""
     parts = ["## 3. Gradients\n\nThe same records, placed by the split sphere: extrapolated by nothing (`ward1988`), by gradients in surface-area "
-             "form, by stratified gradients, and by swept edges.\n"]
+             "form, by stratified gradients, and by swept edges; `uniform` lies otherwise.\n"]
     for scene in results.scenes:
         for rays in (results.exact_rays, 800):
-            parts.append(comparison(results, scene, rays, GRADIENTS))
+            parts.append(comparison(results, scene, rays, GRADIENTS + ("uniform",)))
     return "\n".join(parts)
 
 
 def record_pictures(results):
     count, size = (500, "128x128") if results.trial else (1700, "384x384")
     scene = Scene("cornell-box", size)
-    text = sheet_of_records(results, scene, ("ward1992", "bounded", "schwarzhaupt2012", "swept"), count, 2)
+    text = sheet_of_records(results, scene, ("ward1992", "bounded", "uniform", "jarosz2012", "schwarzhaupt2012", "swept"), count, 3)
     return f"## 4. Where {count:,} records go: split sphere against Hessian\n\n" + text

@@ -6,27 +6,14 @@
 namespace isophote::bench {
 namespace {
 
-Falloff falloff(const std::string& value) {
-  if (value == "ward") return Falloff::ward;
-  if (value == "tent") return Falloff::tent;
-  if (value == "tabellion") return Falloff::tabellion;
-  throw UsageError("a variant knows no weight '" + value + "'");
-}
-
 void change(Method& method, const std::string& key, const std::string& value) {
   MetricSettings& settings = method.settings;
   if (key == "estimator")
     method.estimator = &find_estimator(value);
-  else if (key == "metric")
-    method.metric = &find_metric(value);
   else if (key == "order")
     method.order = std::stoi(value);
   else if (key == "aspect")
     settings.aspect = std::stof(value);
-  else if (key == "min-pixels")
-    settings.bounds.min_pixels = std::stof(value);
-  else if (key == "weight")
-    settings.falloff = falloff(value);
   else if (key == "neighbours")
     settings.bounds.neighbours = std::stof(value);
   else

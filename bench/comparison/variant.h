@@ -6,8 +6,8 @@
 
 namespace isophote::bench {
 
-/// A method to compare: the name of a preset, then any of +estimator=NAME +metric=NAME +order=N +aspect=X +min-pixels=X
-/// +weight=ward|tent|tabellion +neighbours=SLOPE. Secondary caching is off: all are given the same gathers.
+/// A method to compare: the name of a preset, then any of +estimator=NAME +order=N +aspect=X +neighbours=SLOPE.
+/// Secondary caching is off: all are given the same gathers.
 Method variant(const std::string& text);
 
 }  // namespace isophote::bench

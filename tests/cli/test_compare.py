@@ -62,4 +62,5 @@ class Compare(ProgramTest):
         self.refused(1, ("compare", "cut.exr", "1.exr"), "cut.exr")
         self.refused(1, ("compare", "1.exr", "2.exr", "--error-picture", "nowhere/e.png"), "nowhere/e.png")
         self.refused(2, ("compare", "1.exr", "2.exr", "--block", "0"), "--block")
-        self.refused(2, ("compare", "1.exr", "2.exr", "--fail-above", "much"), "--fail-above")
+        for limit in ("much", "nan", "inf", "-0.1"):
+            self.refused(2, ("compare", "1.exr", "2.exr", "--fail-above", limit), "--fail-above")

@@ -116,6 +116,7 @@ class BadInput(ProgramTest):
             (scene + "[method]\nmethod = 'ward2000'\n", 4, "ward2000"),
             (scene + "[method]\nsecondary = 7\n", 4, "secondary"),
             (scene + "[method]\nsize = [4, 4]\n", 4, "size"),
+            (scene + "[method]\na = 0.3\nerror = 0.1\n", 5, "both decide"),
             (scene + "[films]\n", 3, "films"),
             (scene + "[film\n", 3, ""),
             ('[scene]\nfile = "nowhere.glb"\n', 2, "nowhere.glb"),

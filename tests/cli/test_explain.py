@@ -53,6 +53,17 @@ class Explain(ProgramTest):
         self.assertEqual([r["record"] for r in once["serving"]], [r["record"] for r in again["serving"]])
         self.assertEqual((self.folder / "records").read_bytes(), whole)
 
+    def test_the_records_of_a_refined_render(self):
+        # No bound and no neighbour had a say: every radius is what the metric gave with the threshold that refinement came to.
+        method = ("--method", "ward1992", "--error", "0.01")
+        self.done("render", BOX, *quick(*method, "--refine", "2", "--save-cache", "records"))
+        served = self.explained(BOX, "8,12", *method, "--load-cache", "records")["serving"]
+        self.assertTrue(served)
+        for record in served:
+            reach = record["reach"]
+            self.assertAlmostEqual(reach["metric_radius"], reach["semi_axes"][0], delta=1e-3 * reach["metric_radius"])
+            self.assertFalse(reach["less_by_neighbours"] or reach["raised"] or reach["lowered"])
+
     def test_pixels_without_records(self):
         said = self.done("explain", str(SCENES / "plate.toml"), *quick("--pixel", "0,0")).stdout
         self.assertRegex(said, r"\n  sees +the sky: no record")

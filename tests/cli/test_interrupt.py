@@ -57,6 +57,16 @@ class Interrupt(ProgramTest):
         self.assertGreaterEqual(stats["samples"], 128 * 128)
         self.assertLess(stats["samples"], 65536 * 128 * 128)
 
+    def test_in_the_check_the_picture_is_kept_and_finished(self):
+        process = self.start("render", BOX, "--size", "64x64", "--error", "0.005", "--spp", "1", *OUTPUTS)
+        self.wait_for(process, "check")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(self.finish(process), 1)
+        stats = json.loads((self.folder / "stats.json").read_text())
+        self.assertFalse(stats["cancelled"])
+        self.assertEqual(stats["error"], {"asked": 0.005, "points": 0})
+        self.assertEqual(stats["samples"], 64 * 64)
+
     def test_a_second_one_aborts(self):
         self.write("out.exr", "older")
         # One round takes minutes, so that the first signal finds no ear.

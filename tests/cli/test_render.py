@@ -124,6 +124,10 @@ class Statistics(ProgramTest):
     def test_a_number_of_records(self):
         stats = self.stats(BOX, *quick("--size", "64x64", "--records", "800", "--rays", "200", "--no-check"))
         self.assertLess(abs(stats["records"] - 800), 40)
+        # No threshold gives as few: it says so.
+        done = self.run_program("render", BOX, *quick("--records", "2", "--no-check", "--stats", "s.json"))
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"warning: --records 2: the nearest that any threshold gave is \d+\n")
 
     def test_the_closing_words_on_the_error(self):
         # Met; not met; and asked for less than the measurement's own noise.

@@ -158,6 +158,12 @@ TEST(LazyOrder, CoversEverythingWithAboutTheRecordsOfRounds) {
     // Both cover the same samples.
     EXPECT_GT(surplus, 0.6);
     EXPECT_LT(surplus, 1.15);
+    // What is covered and surveyed takes no more rays.
+    job.pilot = lazy.pilot;
+    Film same(job.width, job.height);
+    const LazyReport again = render_lazily(job, cache, same);
+    EXPECT_EQ(again.build_rays.gather, 0u);
+    EXPECT_EQ(again.pilot, lazy.pilot);
     // Both know the same light: the deviation of this bias is about half a percent.
     EXPECT_LT(std::abs(compare(film.irradiance(), rounds.film.irradiance()).bias), 0.02);
   }

@@ -108,6 +108,29 @@ TEST(Explain, SaysWhatChangedARadius) {
   EXPECT_GT(unchanged, 100);
 }
 
+// In the dark room beside a thin wall: the bright side's records are stopped there, and where a ray was cast and found
+// the way to be free, it says so.
+TEST(Explain, TellsWhatTheLeakTestFound) {
+  const Stage stage("thin-wall.glb");
+  RecordCache cache = empty_cache(stage.job(method("cached"), 64, 48, 1, "bright"));
+  for (const char* camera : {"bright", "dark"}) {
+    Job job = stage.job(method("cached"), 64, 48, 1, camera);
+    job.method.adaptive = false;
+    job.strata = Strata::about(200);
+    build_in_rounds(job, cache);
+  }
+  Job job = stage.job(method("cached"), 64, 48, 1, "dark");
+  job.pilot = pilot_of(job);
+  int blocked = 0, free = 0;
+  for (int i = 0; i < 64 * 48; i += 5) {
+    const Explanation e = explain(job, cache, i % 64, i / 64);
+    for (const NearMiss& miss : e.near_misses) blocked += miss.why == Standing::blocked;
+    for (const ServingRecord& s : e.serving) free += s.tested;
+  }
+  EXPECT_GT(blocked, 0);
+  EXPECT_GT(free, 0);
+}
+
 TEST(Explain, RecordsThatNearlyServe) {
   const Stage stage(scenes::cornell_box());
   Job job = stage.job(method("uniform"), 64, 64, 1);

@@ -24,7 +24,7 @@ TEST(RecordFile, ASavedCacheGivesTheSamePictureAndTakesNoMoreRecords) {
   const Rendered first = render_all(job);
   const std::string path = testing_files::temporary("cache");
   const auto records = first.cache.records();
-  write_records(path, {scene_hash(stage.scene()), "", {}, {records.begin(), records.end()}});
+  write_records(path, {scene_hash(stage.scene()), "", {}, 1, {records.begin(), records.end()}});
 
   const RecordCache cache = loaded(job, path);
   EXPECT_TRUE(record_bytes(cache) == record_bytes(first.cache));
@@ -60,7 +60,7 @@ TEST(RecordFile, ACacheOfAnotherViewIsContinued) {
 
 TEST(RecordFile, AnotherSceneOrOtherSettingsAreRefused) {
   const std::uint64_t scene = scene_hash(scenes::cornell_box()), other = scene_hash(scenes::cornell_box(2));
-  const RecordFile file{scene, "a=0.2\nsecondary=true\n", {}, {}};
+  const RecordFile file{scene, "a=0.2\nsecondary=true\n", {}, 1, {}};
   require_match("cache.iso", file, scene, file.settings);
   EXPECT_THROW(require_match("cache.iso", file, other, file.settings), UserError);
   EXPECT_THROW(require_match("cache.iso", file, scene, "a=0.1\nsecondary=true\n"), UserError);

@@ -79,7 +79,7 @@ inline Rendered render_all(const Job& job) {
 /// What a record file holds: every field of every record, in order.
 inline std::string record_bytes(const RecordCache& cache) {
   const std::string path = testing_files::temporary("records");
-  write_records(path, {0, "", {}, {cache.records().begin(), cache.records().end()}});
+  write_records(path, {0, "", {}, 1, {cache.records().begin(), cache.records().end()}});
   return testing_files::bytes_of(path);
 }
 

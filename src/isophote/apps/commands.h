@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,8 @@ struct ExplainRequest : SceneRequest {
 struct CompareRequest {
   std::string image, reference, second, layer, error_picture;
   bool json = false;
-  double fail_above = -1;  ///< relative RMSE; negative: never
-  int block = 1;           ///< average both over blocks of this size first
+  std::optional<double> fail_above;  ///< relative RMSE; none: never
+  int block = 1;                     ///< average both over blocks of this size first
 };
 
 // Each returns the exit code: 0 done, 1 failed. They throw UserError and UsageError.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "isophote/apps/commands.h"
@@ -66,6 +67,8 @@ void check_files(const CompareRequest& request) {
 }  // namespace
 
 int compare(const CompareRequest& request) {
+  if (const auto& limit = request.fail_above; limit && !(*limit >= 0 && std::isfinite(*limit)))
+    throw UsageError(fmt::format("--fail-above: wants a number from 0, not '{:g}'", *limit));
   check_files(request);
   const RgbImage image = read_layer(request.image, request.layer, request.block);
   const RgbImage reference = read_layer(request.reference, request.layer, request.block);
@@ -84,9 +87,9 @@ int compare(const CompareRequest& request) {
     fmt::print("{:<15} {:.3f}%\n", fmt::format("{0}x{0}-block error", 8 * request.block), 100 * d.block_error);
     fmt::print("SSIM            {:.5f}\n", d.ssim);
   }
-  const bool failed = request.fail_above >= 0 && !(d.relative_rmse <= request.fail_above);
+  const bool failed = request.fail_above && !(d.relative_rmse <= *request.fail_above);
   if (failed)
-    fmt::print(stderr, "isophote: relative RMSE {:.4g} is above {:.4g}\n", d.relative_rmse, request.fail_above);
+    fmt::print(stderr, "isophote: relative RMSE {:.4g} is above {:.4g}\n", d.relative_rmse, *request.fail_above);
   return failed ? 1 : 0;
 }
 

@@ -42,27 +42,9 @@ Json of(const ServingRecord& s) {
           {"reach", of(s.reach)}};
 }
 
-const char* name_of(Standing why) {
-  switch (why) {
-    case Standing::beyond_rim:
-      return "beyond_rim";
-    case Standing::facing_away:
-      return "facing_away";
-    case Standing::in_front:
-      return "in_front";
-    case Standing::turned:
-      return "turned";
-    case Standing::blocked:
-      return "blocked";
-    case Standing::serves:
-      break;
-  }
-  return "serves";
-}
-
 Json of(const NearMiss& m) {
   return {{"record", m.id},
-          {"why", name_of(m.why)},
+          {"why", words_of(m.why).key},
           {"distance", m.distance},
           {"over_rim", m.rim},
           {"normal_angle", degrees(m.angle)}};

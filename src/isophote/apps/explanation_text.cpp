@@ -78,28 +78,11 @@ const Column<S> reaches[] = {
 };
 
 using M = NearMiss;
-std::string reason(const M& miss) {
-  switch (miss.why) {
-    case Standing::beyond_rim:
-      return "the pixel is beyond its rim";
-    case Standing::facing_away:
-      return "it faces away";
-    case Standing::in_front:
-      return "it lies in front";
-    case Standing::turned:
-      return "its normal differs too much";
-    case Standing::blocked:
-      return "something stands between";
-    case Standing::serves:
-      break;
-  }
-  return "";
-}
 const Column<M> misses[] = {
     {"distance m", [](const M& m) { return length_of(m.distance); }},
     {"over that of its rim", [](const M& m) { return fmt::format("{:.3f}", m.rim); }},
     {"turned deg", [](const M& m) { return degrees(m.angle); }},
-    {"why not", reason},
+    {"why not", [](const M& m) { return std::string(words_of(m.why).sentence); }},
 };
 
 void print_surface(const ExplainedPixel& pixel, const Explanation& e) {
@@ -135,6 +118,16 @@ std::vector<std::string> serving_names(const Explanation& e) {
 
 }  // namespace
 
+Words words_of(Standing standing) {
+  constexpr Words words[] = {{"beyond_rim", "the pixel is beyond its rim"},
+                             {"facing_away", "it faces away"},
+                             {"in_front", "it lies in front"},
+                             {"turned", "its normal differs too much"},
+                             {"blocked", "something stands between"},
+                             {"serves", "it serves"}};
+  return words[static_cast<std::size_t>(standing)];
+}
+
 void print_explanation(const ExplainedPixel& pixel, const Explanation& e) {
   const Job& job = pixel.job;
   fmt::print("pixel {},{} of {} x {}, method {}, {} records\n", pixel.x, pixel.y, job.width, job.height,
@@ -142,8 +135,8 @@ void print_explanation(const ExplainedPixel& pixel, const Explanation& e) {
   if (e.seen.point) print_surface(pixel, e);
   if (!e.reads_cache) say(e.seen.point ? "but" : "sees", no_surface(job, e.seen));
   say("radiance",
-      fmt::format("{} W/m2/sr: direct {}, indirect {} (mean of {} samples)", triple(e.mean.direct + e.mean.indirect),
-                  triple(e.mean.direct), triple(e.mean.indirect), job.samples));
+      fmt::format("{} W/m2/sr: direct {}, indirect {} (mean of {} sample{})", triple(e.mean.direct + e.mean.indirect),
+                  triple(e.mean.direct), triple(e.mean.indirect), job.samples, job.samples > 1 ? "s" : ""));
   if (!e.reads_cache) return;
   if (e.irradiance)
     say("irradiance", fmt::format("{} W/m2, indirect, from {} record{}; predicted error {}", triple(*e.irradiance),

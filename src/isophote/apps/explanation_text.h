@@ -14,6 +14,12 @@ struct ExplainedPixel {
   int x = 0, y = 0;
 };
 
+/// Why a record serves or not, for scripts and for people.
+struct Words {
+  const char *key, *sentence;
+};
+Words words_of(Standing standing);
+
 /// For people: aligned and with units.
 void print_explanation(const ExplainedPixel& pixel, const Explanation& explanation);
 /// For scripts: lengths in metres, angles in degrees, irradiance in W/m2, radiance in W/m2/sr.

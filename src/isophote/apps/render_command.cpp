@@ -47,7 +47,7 @@ class Rendering {
     write(film);
     display_.clear();
     statistics_.print();
-    return statistics_.cancelled ? 1 : 0;
+    return statistics_.cancelled || statistics_.error.cancelled ? 1 : 0;
   }
 
  private:
@@ -81,8 +81,8 @@ class Rendering {
       final_pass(&cache, film);
     }
     statistics_.records = cache.records().size();
-    for (const Record& record : cache.records())
-      statistics_.record_rays += static_cast<double>(record.jet.rays) / static_cast<double>(cache.records().size());
+    for (const Record& record : cache.records()) statistics_.record_rays += record.jet.rays;
+    statistics_.record_rays /= std::max(1.0, static_cast<double>(cache.records().size()));
     if (!request_.save_cache.empty()) session_.save(cache, request_.save_cache);
     show(cache);
     if (request_.check && !measured_ && !statistics_.cancelled) check(cache);
@@ -113,6 +113,11 @@ class Rendering {
   }
   void show(const std::string& file, const std::string& what, const std::vector<float>& values, bool logarithmic) {
     if (file.empty()) return;
+    if (!std::any_of(maps_.density.begin(), maps_.density.end(), [](float d) { return d > 0; })) {
+      write_png(file, RgbImage(job().width, job().height), 0);
+      fmt::print("{}: no record serves in this picture\n", file);
+      return;
+    }
     const ColourScale scale = colour_scale(values, logarithmic);
     RgbImage picture(job().width, job().height);
     // Where no record serves there is no density, and black in both.
@@ -130,7 +135,7 @@ class Rendering {
     for (; turn < request_.refine && !statistics_.cancelled; ++turn) {
       check(cache);
       const double asked = settings_.error.value_or(default_error);
-      if (statistics_.cancelled || !statistics_.error.exceeds(asked)) return;
+      if (!statistics_.error.exceeds(asked)) return;
       const Clock begin = Clock::now();
       job().method.settings.a = refined_threshold(job().method, asked, statistics_.error.mean);
       added(isophote::refine(job(), cache, places_));
@@ -155,7 +160,6 @@ class Rendering {
     const Clock begin = Clock::now();
     measured_ = statistics_.checked = true;
     statistics_.error = check_points(job(), cache, build_rays_ / 5, statistics_.refinements);
-    statistics_.cancelled = Interruptible::interrupted();
     statistics_.rays += statistics_.error.rays;
     statistics_.time.check += Clock::now() - begin;
   }
@@ -213,6 +217,7 @@ class Rendering {
     s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
     s.adaptive = job.method.adaptive, s.leak_test = job.method.leak_test;
     // Where a threshold or a number of records was given, no error was asked for.
+    s.records_asked = settings_.records;
     if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
     s.seed = settings_.seed, s.threads = session_.threads();
     s.width = job.width, s.height = job.height, s.triangles = session_.loaded().scene.triangle_count();

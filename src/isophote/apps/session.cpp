@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "isophote/cache/record_file.h"
 #include "isophote/core/error.h"
@@ -17,6 +18,11 @@ namespace {
 const Option& option_named(const std::string& name) {
   const auto options = app::options();
   return *std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.name == name; });
+}
+
+bool decides_records(std::string_view setting) { return setting == "error" || setting == "a" || setting == "records"; }
+std::string both_decide(const std::string& one, const std::string& other) {
+  return fmt::format("{} and {} both decide how many records there are: give one", one, other);
 }
 
 /// Refuses pictures that do not fit in memory: the film, and twice as much again for the layers made of it and their
@@ -47,7 +53,14 @@ std::string record_settings(const Job& job) {
 
 RenderSettings merged_settings(const SceneRequest& request, const std::vector<Setting>& from_file) {
   RenderSettings settings;
-  for (const Setting& s : from_file) apply_setting(settings, s.table, s.key, s.value, s.place);
+  std::string deciding;
+  for (const Setting& s : from_file) {
+    if (s.table == "method" && decides_records(s.key)) {
+      if (!deciding.empty()) throw UserError(fmt::format("{}: {}", s.place, both_decide(deciding, s.key)));
+      deciding = s.key;
+    }
+    apply_setting(settings, s.table, s.key, s.value, s.place);
+  }
   for (const auto& [name, value] : request.settings) {
     try {
       option_named(name).apply(settings, value);
@@ -63,9 +76,8 @@ void check_method(const SceneRequest& request, const RenderSettings& settings, c
   for (const auto& [name, value] : request.settings) {
     if (!method.caches() && option_named(name).caches)
       throw UsageError(fmt::format("method 'path' caches nothing: it takes no --{}", name));
-    if (name != "error" && name != "a" && name != "records") continue;
-    if (!deciding.empty())
-      throw UsageError(fmt::format("--{} and --{} both decide how many records there are: give one", deciding, name));
+    if (!decides_records(name)) continue;
+    if (!deciding.empty()) throw UsageError(both_decide("--" + deciding, "--" + name));
     deciding = name;
   }
   if (settings.records && (settings.lazy || !request.load_cache.empty()))
@@ -118,6 +130,7 @@ RecordCache Session::starting_cache() {
   require_match(request_.load_cache, file, scene_hash(loaded_.scene), record_settings(*job_));
   for (const Record& record : file.records) cache.insert(record);
   job_->pilot = file.pilot;
+  job_->method.settings.a = file.threshold;
   return cache;
 }
 
@@ -127,6 +140,12 @@ BuildReport Session::build(RecordCache& cache) {
     Solved solved = build_with_records(*job_, static_cast<std::size_t>(*settings_.records));
     cache = std::move(solved.cache);
     report = std::move(solved.report);
+    const auto made = static_cast<double>(cache.records().size()), asked = static_cast<double>(*settings_.records);
+    if (!report.cancelled && std::abs(made / asked - 1) > records_tolerance) {
+      display_.clear();
+      fmt::print(stderr, "isophote: warning: --records {}: the nearest that any threshold gave is {}\n",
+                 *settings_.records, cache.records().size());
+    }
   } else {
     report = build_in_rounds(*job_, cache);
   }
@@ -138,7 +157,11 @@ void Session::save(const RecordCache& cache, const std::string& path) const {
   Job job = *job_;
   if (!settings_.records) job.method = method_;  // as it was asked for: refinement lowers the threshold
   const auto records = cache.records();
-  write_records(path, {scene_hash(loaded_.scene), record_settings(job), job.pilot, {records.begin(), records.end()}});
+  write_records(path, {scene_hash(loaded_.scene),
+                       record_settings(job),
+                       job.pilot,
+                       job_->method.settings.a,
+                       {records.begin(), records.end()}});
 }
 
 }  // namespace isophote::app

@@ -9,6 +9,49 @@
 #include "isophote/core/atomic_file.h"
 
 namespace isophote::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+/// What decided where records lie, what they see and how they are used.
+Json parameters(const Statistics& s) {
+  const Json survey = s.survey.known ? Json{{"irradiance", s.survey.irradiance},
+                                            {"error_rate", s.survey.error_rate},
+                                            {"noise_rate", s.survey.noise_rate}}
+                                     : Json(nullptr);
+  return {{"estimator", s.estimator},
+          {"metric", s.metric},
+          {"a", s.a},
+          {"records_asked", or_null(s.records_asked)},
+          {"bounds", s.bounds},
+          {"extrapolate", s.extrapolate},
+          {"aspect", std::isfinite(s.aspect) ? Json(s.aspect) : Json(nullptr)},
+          {"survey", survey},
+          {"rays_in_the_mean", s.record_rays},
+          {"gather", s.adaptive ? Json("auto") : Json{s.strata.polar, s.strata.azimuthal}},
+          {"order", s.lazy ? "lazy" : "rounds"},
+          {"secondary", s.secondary},
+          {"leak_test", s.leak_test}};
+}
+
+Json measured(const MeasuredError& error, const std::optional<double>& asked) {
+  if (error.points == 0) return {{"asked", or_null(asked)}, {"points", 0}};
+  return {{"asked", or_null(asked)},
+          {"mean", error.mean},
+          {"median", error.median},
+          {"p95", error.p95},
+          {"largest", {{"error", error.largest}, {"pixel", {error.largest_x, error.largest_y}}}},
+          {"bias", error.bias},
+          {"noise", error.noise},
+          {"points", error.points}};
+}
+
+}  // namespace
 
 std::uint64_t Statistics::peak_memory() {
   rusage usage{};
@@ -42,7 +85,9 @@ void Statistics::print() const {
         refinements ? fmt::format("after {} refinement{} ", refinements, refinements == 1 ? "" : "s") : "", error.mean,
         error.points, error.median, error.p95, error.largest, error.largest_x, error.largest_y, error.bias,
         error.noise);
-  if (checked && error.points == 0) fmt::print("  error      no visible point could be measured\n");
+  if (checked && error.points == 0)
+    fmt::print("  error      {}\n",
+               error.cancelled ? "not measured: interrupted" : "no visible point could be measured");
   if (error.points == 0 || !error_asked) return;
   if (error.exceeds(*error_asked))
     fmt::print("             above the asked error; {}\n",
@@ -52,7 +97,6 @@ void Statistics::print() const {
 }
 
 void Statistics::write_json(const std::string& path) const {
-  using Json = nlohmann::ordered_json;
   const auto phases = [&](double Clock::*field) {
     return Json{{"load", time.load.*field},
                 {"build", time.build.*field},
@@ -84,35 +128,10 @@ void Statistics::write_json(const std::string& path) const {
             {"height", height},
             {"triangles", triangles},
             {"cancelled", cancelled}};
-  const Json survey_json = survey.known ? Json{{"irradiance", survey.irradiance},
-                                               {"error_rate", survey.error_rate},
-                                               {"noise_rate", survey.noise_rate}}
-                                        : Json(nullptr);
-  if (!estimator.empty())
-    json["parameters"] = {{"estimator", estimator},
-                          {"metric", metric},
-                          {"a", a},
-                          {"bounds", bounds},
-                          {"extrapolate", extrapolate},
-                          {"aspect", std::isfinite(aspect) ? Json(aspect) : Json(nullptr)},
-                          {"survey", survey_json},
-                          {"rays_in_the_mean", record_rays},
-                          {"gather", adaptive ? Json("auto") : Json{strata.polar, strata.azimuthal}},
-                          {"order", lazy ? "lazy" : "rounds"},
-                          {"secondary", secondary},
-                          {"leak_test", leak_test}};
-  const Json asked = error_asked ? Json(*error_asked) : Json(nullptr);
-  if (error.points > 0)
-    json["error"] = {{"asked", asked},
-                     {"mean", error.mean},
-                     {"median", error.median},
-                     {"p95", error.p95},
-                     {"largest", {{"error", error.largest}, {"pixel", {error.largest_x, error.largest_y}}}},
-                     {"bias", error.bias},
-                     {"noise", error.noise},
-                     {"points", error.points}};
-  else if (!estimator.empty())
-    json["error"] = {{"asked", asked}, {"points", 0}};
+  if (!estimator.empty()) {
+    json["parameters"] = parameters(*this);
+    json["error"] = measured(error, error_asked);
+  }
   AtomicFile file(path);
   file.stream() << json.dump(2) << "\n";
   file.commit();

@@ -13,6 +13,7 @@ struct Statistics {
   std::string method, estimator, metric, bounds;
   bool lazy = false, secondary = false, adaptive = false, leak_test = false, cancelled = false, checked = false;
   std::optional<double> error_asked;
+  std::optional<int> records_asked;
   float a = 0, aspect = 1;
   Pilot survey{};
   int extrapolate = 0;

@@ -19,7 +19,7 @@ namespace isophote {
 namespace {
 
 constexpr char magic[8] = {'I', 'S', 'O', 'P', 'H', 'R', 'E', 'C'};
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 /// Puts numbers into bytes, least significant first.
 struct Packer {
@@ -73,13 +73,14 @@ void transfer(Stream& io, Record& r) {
   obstacles.least = *std::min_element(obstacles.nearest.begin(), obstacles.nearest.end());
 }
 
+/// What the footprints were decided by.
 template <class Stream>
-void transfer(Stream& io, Pilot& pilot) {
+void transfer(Stream& io, Pilot& pilot, float& threshold) {
   auto known = static_cast<std::uint8_t>(pilot.known);
-  io(known), io(pilot.error_rate), io(pilot.irradiance), io(pilot.noise_rate);
+  io(known), io(pilot.error_rate), io(pilot.irradiance), io(pilot.noise_rate), io(threshold);
   pilot.known = known != 0;
 }
-constexpr std::size_t pilot_size = 13;
+constexpr std::size_t pilot_size = 17;
 
 std::size_t record_size() {
   Packer packer;
@@ -177,8 +178,9 @@ class Reader {
     file.settings = take(settings_size);
     const std::string pilot_bytes = take(pilot_size);
     Unpacker pilot_in{pilot_bytes.data()};
-    transfer(pilot_in, file.pilot);
+    transfer(pilot_in, file.pilot, file.threshold);
     if (static_cast<unsigned char>(pilot_bytes[0]) > 1 || !usable(file.pilot)) fail("its survey is malformed");
+    if (!(file.threshold > 0 && within(file.threshold, 0, 1))) fail("its threshold is malformed");
     const std::string count_bytes = take(8);
     const std::uint64_t count = Unpacker{count_bytes.data()}.integer(8), each = record_size();
     const std::uint64_t left = size_ - head_size - settings_size - pilot_size - 16;
@@ -238,7 +240,8 @@ void write_records(const std::string& path, const RecordFile& file) {
   out.integer(file.settings.size(), 4);
   out.bytes += file.settings;
   Pilot pilot = file.pilot;
-  transfer(out, pilot);
+  float threshold = file.threshold;
+  transfer(out, pilot, threshold);
   out.integer(file.records.size(), 8);
   for (Record record : file.records) transfer(out, record);
   Checksum checksum;

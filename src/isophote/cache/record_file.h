@@ -13,6 +13,7 @@ struct RecordFile {
   std::uint64_t scene = 0;  ///< hash of the scene
   std::string settings;     ///< lines `key=value` of everything that shaped the records
   Pilot pilot{};            ///< of the picture they were made for
+  float threshold = 1;      ///< that gave their footprints: after refinement, less than the settings say
   std::vector<Record> records;
 };
 

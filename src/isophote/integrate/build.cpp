@@ -124,16 +124,15 @@ class Builder {
     return all;
   }
 
-  bool must_survey() const { return wants_survey(job_.method) && !job_.pilot.known; }
   /// Levels too coarse to show what the picture is like are left out.
   bool ready_to_survey(const std::vector<Candidate>& candidates) const {
-    return !must_survey() || !cache_.records().empty() || candidates.size() >= surveyed_places;
+    return !must_survey(job_) || !cache_.records().empty() || candidates.size() >= surveyed_places;
   }
 
   /// Surveys the picture, where the method wants that, at the first candidates, whose jets then make the first records;
   /// where there are records already, candidates are no fair choice.
   void begin_with_survey(std::vector<Candidate>& candidates) {
-    if (!must_survey() || candidates.empty()) return;
+    if (!must_survey(job_) || candidates.empty()) return;
     if (!cache_.records().empty()) {
       job_.pilot = survey(job_, random_places(job_, report_.rays), report_.rays).pilot;
       return;

@@ -107,13 +107,19 @@ MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64
       job.progress.tell("check", static_cast<double>(done) / static_cast<double>(total));
     }
   };
+  const auto cancelled = [&] {
+    MeasuredError error;
+    error.rays = rays, error.cancelled = true;
+    return error;
+  };
   measure(0);
-  if (job.progress.stop()) return {};
+  if (job.progress.stop()) return cancelled();
   const double each = std::max(1.0, static_cast<double>(rays.check) / fewest);
   const auto wanted = std::clamp(static_cast<double>(ray_budget) / each, double{fewest}, double{most});
   total = static_cast<std::size_t>(wanted);
   points.resize(total);
   measure(fewest);
+  if (job.progress.stop()) return cancelled();
   job.progress.tell("check", 1);
   MeasuredError error = summary(points);
   error.rays = rays;

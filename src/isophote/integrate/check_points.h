@@ -14,6 +14,7 @@ struct MeasuredError {
   int largest_x = 0, largest_y = 0;  ///< the pixel in which the point of the largest error is seen
   double noise = 0;  ///< mean error of E_ref itself, in the same measure: what `mean` would be for a perfect cache
   RayCounts rays;
+  bool cancelled = false;  ///< the host wanted no more: nothing was measured
 
   /// Is it surely above what was asked? The measured mean contains the measurement's noise.
   bool exceeds(double asked) const { return points > 0 && mean - noise > asked; }

@@ -17,8 +17,9 @@ struct Survey {
 };
 Survey survey(const Job& job, std::span<const Place> places, RayCounts& counts);
 
-/// Does the job's method want a survey, and of how many places?
+/// Does a method want a survey, does a job still want one, and of how many places?
 bool wants_survey(const Method& method);
+inline bool must_survey(const Job& job) { return wants_survey(job.method) && !job.pilot.known; }
 inline constexpr std::size_t surveyed_places = 64;
 
 /// Random visible places for a survey where no others are at hand.

@@ -155,7 +155,8 @@ RgbImage coarse_picture(const Job& job, const RecordCache& cache, int stride) {
 LazyReport render_lazily(const Job& asked, RecordCache& cache, Film& film) {
   LazyReport report;
   Job job = asked;
-  if (wants_survey(job.method))
+  report.pilot = job.pilot;
+  if (must_survey(job))
     report.pilot = job.pilot = survey(job, random_places(job, report.build_rays), report.build_rays).pilot;
   HemisphereGather scratch;
   const FlushDenormals flush;

@@ -11,7 +11,6 @@ namespace {
 
 const double least_log_a = std::log(double{least_threshold}), greatest_log_a = std::log(double{greatest_threshold});
 constexpr int most_tries = 10;
-constexpr double close_enough = 0.02;
 
 struct Try {
   double log_a, log_records;
@@ -54,7 +53,7 @@ Solved build_with_records(Job& asked, std::size_t wanted) {
     const double log_records = std::log(static_cast<double>(std::max<std::size_t>(attempt.cache.records().size(), 1)));
     const double miss = std::abs(log_records - target);
     if (!best || miss < best_miss) best = std::move(attempt), best_miss = miss, best_a = job.method.settings.a;
-    if (miss < close_enough) break;
+    if (miss < records_tolerance) break;
     (log_records > target ? above : below) = Try{log_a, log_records};
     if (above && below)
       log_a = above->log_a +

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "isophote/cache/record_file.h"
+#include "isophote/core/error.h"
+#include "isophote/core/ray.h"
+#include "support/records.h"
+#include "support/sign_record_file.h"
+
+namespace isophote::test {
+
+namespace fs = std::filesystem;
+
+/// Where things lie in a file: magic, version, scene, length of the settings, settings, survey with threshold, count,
+/// records, checksum.
+inline constexpr std::size_t settings_at = 24, survey_bytes = 17, record_bytes = 230;
+
+class RecordFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = (fs::path(testing::TempDir()) /
+             ("records_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
+                .string();
+    fs::remove_all(path_);
+  }
+  void TearDown() override { fs::remove_all(path_); }
+
+  static RecordFile sample(int count) {
+    RandomPlaces random(17);
+    RecordFile file{0x0123456789abcdefull, "method=bounded\na=0.2\nseed=7\n", {true, 0.5f, 2, 3}, 0.1f, {}};
+    for (int i = 0; i < count; ++i) {
+      Record r = round_record(random.point({-5, -5, -5}, {5, 5, 5}), random.direction(), random.number(0.1f, 1), 5);
+      r.footprint.shape.xx *= 1.5f, r.footprint.shape.yy *= 1.5f;
+      r.footprint.shape.xy = random.number(-0.4f, 0.4f);
+      r.footprint.unscaled = random.number(0, 9);
+      r.footprint.smallest = random.number(0, 0.1f);
+      r.footprint.largest = i % 2 ? infinity : 3;
+      r.footprint.falloff = i % 2 ? Falloff::tent : Falloff::ward;
+      r.footprint.order = static_cast<std::uint8_t>(i % 3);
+      r.curvature_scale = random.number(0, 1e-6f);
+      r.jet.hessian = {random.number(-1, 1), random.number(-1, 1), random.number(-1, 1),
+                       random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
+      r.gradient_scale = random.number(0, 1);
+      r.jet.value = random.colour(0, 1e6f);
+      r.jet.translational = random.gradient(3);
+      r.jet.rotational = random.gradient(3);
+      r.jet.distances.harmonic_mean = i % 2 ? infinity : 2;
+      for (int s = i % 3; s < Obstacles::sectors; s += 3) r.jet.distances.obstacles.meet(s, random.number(0, 9));
+      file.records.push_back(r);
+    }
+    return file;
+  }
+
+  std::string bytes() const {
+    std::ostringstream text;
+    text << std::ifstream(path_, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  void put(const std::string& content) const { std::ofstream(path_, std::ios::binary) << content; }
+  /// The same with the checksum that belongs to it.
+  void put_signed(const std::string& content) const { put(sign_record_file(content)); }
+  /// Why the file is refused; empty where it is not.
+  std::string refusal() const {
+    try {
+      read_records(path_);
+    } catch (const UserError& error) {
+      EXPECT_EQ(std::string(error.what()).find(path_ + ": "), 0u) << error.what();
+      return std::string(error.what()).substr(path_.size() + 2);
+    }
+    return "";
+  }
+
+  std::string path_;
+};
+
+inline void put_integer(std::string& bytes, std::size_t at, std::uint64_t value, int size) {
+  for (int i = 0; i < size; ++i) bytes[at + i] = static_cast<char>(value >> (8 * i));
+}
+
+}  // namespace isophote::test
