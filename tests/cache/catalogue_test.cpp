@@ -84,6 +84,11 @@ TEST(Catalogue, RefusalsNameBothSides) {
       EXPECT_TRUE(mentions(refusal(unheeded), "'" + std::string(name) + "'"));
       EXPECT_TRUE(mentions(refusal(unheeded), "'ward-heckbert'"));
     }
+  Method by_gradient = find_method("swept"), elliptical = find_method("bounded");
+  by_gradient.settings.bounds.gradient = true;
+  elliptical.settings.aspect = 2;
+  EXPECT_TRUE(mentions(refusal(by_gradient), "'total-error'") && mentions(refusal(by_gradient), "gradient"));
+  EXPECT_TRUE(mentions(refusal(elliptical), "'bounded-split-sphere'") && mentions(refusal(elliptical), "disks"));
 }
 
 TEST(Catalogue, MakesAndSettlesRecordsAsItsPartsSay) {

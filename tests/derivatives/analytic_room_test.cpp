@@ -84,6 +84,52 @@ TEST(AnalyticRoom, KnownIrradianceAndGradients) {
   }
 }
 
+TEST(AnalyticRoom, KnownHessians) {
+  const struct {
+    Walls walls;
+    bool rectangle;
+    double hessian[4][3];  // xx, xy, yy
+  } rows[] = {{Walls::constant,
+               false,
+               {{0.173994, -0.075478, -0.267732},
+                {0.040751, -0.006467, -0.214166},
+                {0.128143, -0.040101, -0.258933},
+                {-0.020545, 0.041021, -0.177078}}},
+              {Walls::constant,
+               true,
+               {{-0.160710, -0.460830, -0.373704},
+                {1.462238, -0.008175, 1.343090},
+                {-0.378163, -0.294826, 0.412784},
+                {-0.130181, -0.421810, 0.009483}}},
+              {Walls::smooth,
+               false,
+               {{0.428064, -0.056868, -0.222373},
+                {0.075287, 0.105955, -0.179683},
+                {0.254683, 0.106794, -0.233009},
+                {0.014645, 0.060098, -0.195153}}},
+              {Walls::smooth,
+               true,
+               {{0.131824, -0.426007, -0.251101},
+                {1.510418, -0.041752, 1.387961},
+                {-0.277978, -0.174089, 0.433899},
+                {-0.039408, -0.383356, 0.046758}}}};
+  constexpr double step = 2e-3;  // near P2 the gradient has a kink, where a shadow's corner passes an edge of the room
+  for (const auto& row : rows) {
+    const AnalyticRoom room(row.walls, row.rectangle);
+    for (int i = 0; i < 4; ++i) {
+      const FloorPoint& p = floor_points[i];
+      SCOPED_TRACE(p.name);
+      const auto gradient = [&](double x, double y) { return room.gradient(x, y); };
+      EXPECT_NEAR(central_difference([&](double h) { return gradient(p.x + h, p.y).x; }, step), row.hessian[i][0],
+                  1e-4);
+      EXPECT_NEAR(central_difference([&](double h) { return gradient(p.x + h, p.y).y; }, step), row.hessian[i][1],
+                  1e-4);
+      EXPECT_NEAR(central_difference([&](double h) { return gradient(p.x, p.y + h).y; }, step), row.hessian[i][2],
+                  1e-4);
+    }
+  }
+}
+
 TEST(AnalyticRoom, UniformWallsBehindADimRectangle) {
   const auto room = AnalyticRoom::uniform(1.0, 0.1);
   const FloorPoint& p = floor_points[1];

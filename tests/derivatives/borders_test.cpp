@@ -1,6 +1,8 @@
 // What the gradients make of the edges of the hemisphere: sky, the record's own surface, the horizon.
 #include <gtest/gtest.h>
 
+#include "isophote/derivatives/schwarzhaupt_2012.h"
+#include "isophote/derivatives/swept_edges.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
 #include "support/imagined_gather.h"
 
@@ -30,13 +32,39 @@ TEST(WardHeckbert, OpenSky) {
   EXPECT_EQ(open.distances.harmonic_mean, infinity);
 }
 
+struct EdgeAware {
+  const char* name;
+  Jet<Rgb> (*estimate)(const HemisphereGather&);
+};
+const EdgeAware edge_aware[] = {
+    {"Ward-Heckbert", [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact); }},
+    {"harmonic",
+     [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact, WallDistance::harmonic); }},
+    {"triangulated", [](const HemisphereGather& g) { return schwarzhaupt_2012(g, Horizon::closed); }},
+    {"swept", swept_edges},
+};
+
 // Where the interpolated normal leans over the surface itself, the directions under that surface see nothing; their rim
 // goes with the record and moves nothing.
-TEST(WardHeckbert, TheSurfaceItselfIsNoEdge) {
+TEST(Borders, TheSurfaceItselfIsNoEdge) {
   GatherSample own = seen(0, infinity);
   own.surface = GatherSample::own_surface;
-  const HemisphereGather gather = imagine({16, 50}, [&](int j, int k) { return j > 10 && k < 20 ? own : seen(1, 2); });
-  EXPECT_EQ(channel(ward_heckbert_1992(gather, RotationWeights::exact).translational), Vec3d());
+  HemisphereGather gather = imagine({16, 50}, [&](int j, int k) { return j > 10 && k < 20 ? own : seen(1, 2); });
+  for (GatherSample& s : gather.samples) s.normal = -s.direction;
+  for (const EdgeAware& e : edge_aware) {
+    EXPECT_EQ(channel(e.estimate(gather).translational), Vec3d()) << e.name;
+    EXPECT_EQ(e.estimate(gather).hessian, Sym3{}) << e.name;
+  }
+}
+
+// However varied, the sky moves with the record, in any unit of length.
+TEST(Borders, AnOpenSkyHasNoDerivatives) {
+  const HemisphereGather gather =
+      imagine({16, 50}, [&](int j, int k) { return seen(static_cast<float>(1 + j * k % 7), infinity); });
+  for (const EdgeAware& e : edge_aware) {
+    EXPECT_EQ(channel(e.estimate(gather).translational), Vec3d()) << e.name;
+    EXPECT_EQ(e.estimate(gather).hessian, Sym3{}) << e.name;
+  }
 }
 
 TEST(WardHeckbert, IsFiniteForEveryCountOfRings) {

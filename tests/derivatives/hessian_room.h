@@ -8,20 +8,27 @@
 
 namespace isophote::test {
 
-/// A place on the floor of the smooth room, with the derivatives of its irradiance known beforehand.
+/// A place on the floor of a room, with the derivatives of its irradiance known beforehand.
 struct KnownPoint {
   const char* name;
-  bool rectangle;
+  AnalyticRoom (*room)();
   double x, y;
   double gx, gy;
   double xx, xy, yy;
 };
+inline AnalyticRoom empty() { return {AnalyticRoom::Walls::smooth, false}; }
+inline AnalyticRoom occluded() { return {AnalyticRoom::Walls::smooth, true}; }
+inline AnalyticRoom constant() { return {AnalyticRoom::Walls::constant, true}; }
+inline AnalyticRoom uniform() { return AnalyticRoom::uniform(1, 0.1); }
 inline constexpr KnownPoint known_points[] = {
-    {"P0 empty", false, 0.9, 0.8, -0.49848072, -0.15857032, 0.428064, -0.056868, -0.222373},
-    {"P1 empty", false, 1.9, 1.45, -0.25588382, -0.21736148, 0.075287, 0.105955, -0.179683},
-    {"P0 with rectangle", true, 0.9, 0.8, -0.68797485, -0.29598643, 0.131824, -0.426007, -0.251101},
-    {"P1 with rectangle", true, 1.9, 1.45, -0.24994298, -0.26435470, 1.510418, -0.041752, 1.387961},
-    {"P2 with rectangle", true, 1.2, 1.3, -0.93287732, -0.32691458, -0.277978, -0.174089, 0.433899}};
+    {"P0 empty", empty, 0.9, 0.8, -0.49848072, -0.15857032, 0.428064, -0.056868, -0.222373},
+    {"P1 empty", empty, 1.9, 1.45, -0.25588382, -0.21736148, 0.075287, 0.105955, -0.179683},
+    {"P0 with rectangle", occluded, 0.9, 0.8, -0.68797485, -0.29598643, 0.131824, -0.426007, -0.251101},
+    {"P1 with rectangle", occluded, 1.9, 1.45, -0.24994298, -0.26435470, 1.510418, -0.041752, 1.387961},
+    {"P2 with rectangle", occluded, 1.2, 1.3, -0.93287732, -0.32691458, -0.277978, -0.174089, 0.433899},
+    {"P1, constant walls", constant, 1.9, 1.45, -0.17127526, -0.18296331, 1.462238, -0.008175, 1.343090},
+    {"P3, constant walls", constant, 2.6, 1.9, 0.14217830, 0.00070783, -0.130181, -0.421810, 0.009483},
+    {"P1, uniform walls", uniform, 1.9, 1.45, 0.03209149, -0.00084179, 1.7768586, -0.0021350, 1.9465710}};
 
 struct DerivativeErrors {
   double gradient, hessian;  ///< rms over seeds, relative to the truth's size
@@ -29,7 +36,7 @@ struct DerivativeErrors {
 
 inline DerivativeErrors rms_errors(const KnownPoint& p, Strata strata, int seeds,
                                    const std::function<Jet<Rgb>(const HemisphereGather&)>& estimate) {
-  const AnalyticRoom room(AnalyticRoom::Walls::smooth, p.rectangle);
+  const AnalyticRoom room = p.room();
   double gradient = 0, hessian = 0;
   for (int seed = 0; seed < seeds; ++seed) {
     const Jet<Rgb> jet = estimate(gather_floor(room, p.x, p.y, strata, seed));

@@ -44,16 +44,13 @@ TEST(Schwarzhaupt, AFurnaceHasNoDerivativesIfClosed) {
     return std::hypot(jet.translational.x.r, jet.translational.y.r) + std::abs(jet.hessian.xx) +
            std::abs(jet.hessian.yy);
   };
-  EXPECT_LT(size(closed(gather)), 1e-6);
+  EXPECT_EQ(size(closed(gather)), 0);
   EXPECT_GT(size(open(gather)), 1e-2);
 }
 
-TEST(Schwarzhaupt, SkyIsFiniteAndTurnsNothing) {
+TEST(Schwarzhaupt, SkyIsFinite) {
   HemisphereGather gather = gather_floor(AnalyticRoom(Walls::smooth, true), 0.9, 0.8, {16, 50}, 1);
-  for (GatherSample& s : gather.samples) s.distance = infinity;
-  const Jet<Rgb> sky = closed(gather);
-  EXPECT_LT(std::abs(sky.translational.x.r) + std::abs(sky.hessian.xx), 1e-2);
-  for (std::size_t i = 0; i < gather.samples.size(); i += 3) gather.samples[i].distance = 1;
+  for (std::size_t i = 0; i < gather.samples.size(); ++i) gather.samples[i].distance = i % 3 ? infinity : 1;
   const Jet<Rgb> mixed = closed(gather);
   EXPECT_TRUE(is_finite(mixed.translational.x) && std::isfinite(mixed.hessian.xx + mixed.hessian.yy));
 }

@@ -29,8 +29,8 @@ TEST(StandardError, IsTheSpreadOfNoisyRadiance) {
 // Without such noise jitter alone is left, and the walls between bright and dark are counted in full: no less than the
 // spread, and not many times more.
 TEST(StandardError, ErrsUpwardsWhereRadianceIsSmooth) {
-  const AnalyticRoom room(AnalyticRoom::Walls::smooth, true);
   for (const KnownPoint& p : known_points) {
+    const AnalyticRoom room = p.room();
     double sum = 0, squares = 0, estimated = 0;
     constexpr int seeds = 64;
     for (int seed = 0; seed < seeds; ++seed) {

@@ -120,13 +120,16 @@ TEST(TotalError, FlatBlackAndBounded) {
   EXPECT_FLOAT_EQ(total_error(flat, view_of(1), 0.02f, {}, 2).radius, 25);
   Jet<Rgb> black = curved(1, 0, 1);
   black.value = {};
-  for (const Pilot pilot : {Pilot{1, 2}, Pilot{0, 0}}) {
-    View view = view_of(1);
-    view.pilot = pilot;
-    const Footprint f = total_error(black, view, 0.02f, {}, 2);
-    EXPECT_TRUE(std::isfinite(f.radius) && f.radius > 0 && std::isfinite(f.shape.xx) && f.shape.xx > 0);
-  }
   View view = view_of(1);
+  for (const float irradiance : {0.0f, 2.0f}) {
+    view.pilot = {.known = true, .error_rate = 1, .irradiance = irradiance};
+    const Footprint f = total_error(black, view, 0.02f, {}, 2);
+    // l is over a hundredth of the picture's mean; where all is black the scene bounds the radius.
+    const double expected = irradiance > 0 ? std::sqrt(0.02) * std::pow(0.04 * irradiance / M_PI, 0.25) : 25;
+    EXPECT_NEAR(f.radius / expected, 1, 1e-5);
+    EXPECT_TRUE(std::isfinite(f.shape.xx) && f.shape.xx > 0);
+  }
+  view = view_of(1);
   view.pixel = 0.01f;
   const RadiusBounds bounds{.min_pixels = 1.5f, .max_length = 0.5f};
   EXPECT_FLOAT_EQ(total_error(curved(1e9f, 0, 1e9f), view, 0.02f, bounds, 1).radius, 0.015f);

@@ -165,6 +165,8 @@ Method chosen_method(const RenderSettings& s) {
   if (!s.metric.empty()) {
     method.metric = &find_metric(s.metric);
     if (!method.metric->bounded) method.settings.bounds = {};
+    if (!method.metric->by_gradient) method.settings.bounds.gradient = false;
+    if (!method.metric->elliptical) method.settings.aspect = 1;
   }
   RadiusBounds& bounds = method.settings.bounds;
   bounds.min_pixels = s.min_pixels.value_or(bounds.min_pixels);

@@ -53,6 +53,7 @@ constexpr Metric metric_table[] = {
     {.name = "bounded-split-sphere",
      .paper = "[Krivanek 2006]",
      .bounded = true,
+     .by_gradient = true,
      .a_factor = 1.4f,
      .a_power = 0.5f,
      .measure = [](const Jet<Rgb>& jet, const View& view,
@@ -63,6 +64,7 @@ constexpr Metric metric_table[] = {
     {.name = "total-error",
      .paper = "[Jarosz 2012]",
      .bounded = true,
+     .elliptical = true,
      .needs = 2,
      .a_factor = 2,
      .measure = [](const Jet<Rgb>& jet, const View& view,
@@ -163,6 +165,9 @@ Record Method::make_record(const Vec3& position, const Vec3& normal, const Jet<R
   record.footprint = metric->measure(record.jet, view, settings);
   if (settings.falloff) record.footprint.set_falloff(*settings.falloff);
   record.footprint.order = static_cast<std::uint8_t>(std::min(order, estimator->order));
+  // Metrics that settle limit it further. The darkest records have none: their reciprocal is beyond floats.
+  const float twice = 2 * luminance(jet.value);
+  if (record.footprint.order > 1 && twice > 1e-30f) record.curvature_scale = 1 / twice;
   return record;
 }
 
@@ -210,6 +215,10 @@ void check_combination(const Method& method) {
     throw UsageError(pair() + "the bound by the gradient needs a gradient, which this estimator does not give");
   if (!method.metric->bounded && method.settings.bounds != RadiusBounds{})
     throw UsageError(pair() + "this metric heeds no bounds on the radius; 'bounded-split-sphere' does");
+  if (!method.metric->by_gradient && method.settings.bounds.gradient)
+    throw UsageError(pair() + "this metric heeds no bound by the gradient; 'bounded-split-sphere' does");
+  if (!method.metric->elliptical && method.settings.aspect > 1)
+    throw UsageError(pair() + "this metric's footprints are disks; those of 'total-error' may be ellipses");
 }
 
 }  // namespace isophote

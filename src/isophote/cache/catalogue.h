@@ -30,7 +30,9 @@ struct Estimator {
 /// A metric of `validity/`: how far that can be trusted, and what records do to each other.
 struct Metric {
   std::string_view name{}, paper{};
-  bool bounded = false;             ///< heeds MetricSettings::bounds
+  bool bounded = false;             ///< heeds MetricSettings::bounds but
+  bool by_gradient = false;         ///< that by the gradient
+  bool elliptical = false;          ///< heeds MetricSettings::aspect
   int needs = 0;                    ///< order of the estimator at least; of 2 it also wants View::pilot
   float a_factor = 1, a_power = 1;  ///< a = factor * error^power aims at a wanted mean relative error
   Footprint (*measure)(const Jet<Rgb>&, const View&, const MetricSettings&) = nullptr;
@@ -81,7 +83,7 @@ inline constexpr float least_threshold = 1e-6f, greatest_threshold = 1;
 float threshold(const Metric& metric, double error);
 
 /// Throws UsageError, naming both sides, where the metric or its bounds need what the estimator does not give, or where
-/// bounds are set that the metric does not heed. Called before any ray is shot.
+/// bounds or an aspect are set that the metric does not heed. Called before any ray is shot.
 void check_combination(const Method& method);
 
 }  // namespace isophote

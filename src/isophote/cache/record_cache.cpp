@@ -28,7 +28,7 @@ float footprint_error(const Record& record, const Vec3& position, const Vec3& no
   // Of the difference, not of 1 - cosine, which rounding keeps from being 0 where the normals are equal.
   const float away = std::sqrt(distance),
               turned = record.footprint.normal_scale * std::sqrt(length_squared(normal - record.normal) / 2);
-  return record.footprint.falloff == Falloff::tabellion ? std::max(away, turned) : away + turned;
+  return record.footprint.combine(away, turned);
 }
 
 Standing standing(const Record& record, const Query& query, OpenTest open) {

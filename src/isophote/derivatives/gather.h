@@ -14,7 +14,7 @@ namespace isophote {
 struct GatherSample {
   Vec3 direction;             ///< unit, world space, away from the record
   float distance = infinity;  ///< to the nearest surface, scene units, above 0; infinity: the sky
-  Rgb radiance;               ///< arriving along the ray, finite
+  Rgb radiance;               ///< arriving along the ray, finite, W/m2/sr
   Vec3 normal;                ///< unit normal of that surface, facing the record
   std::uint32_t surface = 0;  ///< which surface: samples of equal id lie on one mesh
 

@@ -5,9 +5,13 @@
 namespace isophote {
 namespace {
 
-int sector_at(const Strata& strata, double k) {
-  const double phi = strata.azimuth(k);
-  return Obstacles::sector(static_cast<float>(std::cos(phi)), static_cast<float>(std::sin(phi)));
+/// Azimuths are the gather's own; sectors those of the frame that `before` makes of the normal alone.
+int sector_at(const HemisphereGather& gather, double k) {
+  const double phi = gather.strata.azimuth(k);
+  const Vec3 along =
+      gather.frame.u * static_cast<float>(std::cos(phi)) + gather.frame.v * static_cast<float>(std::sin(phi));
+  const Frame frame(gather.frame.n);
+  return Obstacles::sector(dot(along, frame.u), dot(along, frame.v));
 }
 
 /// Along the tangent plane for what is low, and the height for what hangs over the record: a query that it hides, on
@@ -27,8 +31,9 @@ Obstacles obstacles(const HemisphereGather& gather) {
     float nearest = infinity;
     for (int j = 0; j < s.polar; ++j) nearest = std::min(nearest, reach(gather.at(j, k), gather.frame.n));
     constexpr int all = Obstacles::sectors;
-    const int first = sector_at(s, k - 1);
-    const int more = s.azimuthal > 3 ? (sector_at(s, k + 2) - first + all) % all : all - 1;  // of 3, all are neighbours
+    const int first = sector_at(gather, k - 1);
+    const int more =
+        s.azimuthal > 3 ? (sector_at(gather, k + 2) - first + all) % all : all - 1;  // of 3, all are neighbours
     for (int i = 0; i <= more; ++i) result.meet((first + i) % all, nearest);
   }
   return result;

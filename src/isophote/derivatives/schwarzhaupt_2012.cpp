@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "isophote/derivatives/edge.h"
-#include "isophote/derivatives/tangent.h"
+#include "isophote/derivatives/lambert_sum.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
 
 namespace isophote {
@@ -15,39 +14,13 @@ struct Vertex {
   Rgbd radiance;
 };
 
-/// Derivatives of the irradiance from a polygon, edge by edge [Lambert], counter-clockwise seen from above. Only closed
-/// loops mean anything.
-struct LambertSum {
-  TangentGradient gradient;
-  TangentHessian hessian;
-
-  /// An edge with one radiance on its left and another on its right.
-  void add(const Vertex& a, const Vertex& b, const Rgbd& left, const Rgbd& right) {
-    if (left == right) return;
-    Edge e;
-    const double angle = std::atan2(length(cross(a.position, b.position)), dot(a.position, b.position));
-    if (!e.set(a.position, b.position, angle)) return;
-    const EdgeMoments s(e);
-    const Vec3d turn{-e.t.y, e.t.x, 0};  // n x t
-    const Vec3d p = e.m * s.s20 + e.t * s.s11;
-    const Rgbd step = left - right;
-    gradient.u += step * ((angle * turn.x + 2 * e.c.z * p.x) / (2 * e.h));
-    gradient.v += step * ((angle * turn.y + 2 * e.c.z * p.y) / (2 * e.h));
-    const auto entry = [&](int i, int j) {
-      const double squares =
-          s.s40 * e.m[i] * e.m[j] + s.s31 * (e.m[i] * e.t[j] + e.t[i] * e.m[j]) + s.s22 * e.t[i] * e.t[j];
-      return turn[i] * p[j] + p[i] * turn[j] + e.c.z * (4 * squares - (i == j ? s.s20 : 0));
-    };
-    const double second = luminance(step) / (e.h * e.h);
-    hessian.uu += second * entry(0, 0), hessian.uv += second * entry(0, 1), hessian.vv += second * entry(1, 1);
-  }
-};
-
 /// Rows of vertices from the pole to the horizon, and between them cells of two triangles each.
 class Mesh {
  public:
   Mesh(const HemisphereGather& gather, Horizon horizon);
   LambertSum sum() const;
+  /// Is there anything but sky? If not, nothing moves.
+  bool hits() const { return farthest_hit_ > 0; }
 
  private:
   /// Between row r and the next, column k and the next: a = (r, k), b = (r + 1, k), c = (r + 1, k + 1), d = (r, k + 1).
@@ -67,10 +40,12 @@ class Mesh {
     const Vertex& ab = b.distance > a.distance ? b : a;
     return c.distance > ab.distance ? c.radiance : ab.radiance;
   }
+  void add_samples(const HemisphereGather& gather);
   void add_horizon(const HemisphereGather& gather);
   void add_cells();
 
   int columns_, rows_;
+  double farthest_hit_ = 0;
   std::vector<Vertex> vertices_;
   Vertex pole_;
   std::vector<Cell> cells_;
@@ -78,16 +53,11 @@ class Mesh {
 
 Mesh::Mesh(const HemisphereGather& gather, Horizon horizon)
     : columns_(gather.strata.azimuthal), rows_(gather.strata.polar) {
-  const Framed frame(gather.frame);
-  // The sky is as far as rounding allows: its 1/distance terms vanish.
-  double farthest_hit = 0;
-  for (const GatherSample& s : gather.samples)
-    if (s.distance < infinity) farthest_hit = std::max(farthest_hit, static_cast<double>(s.distance));
-  const double sky = 1e4 * (farthest_hit > 0 ? farthest_hit : 1.0);
-  for (const GatherSample& s : gather.samples) {
-    const double distance = s.distance < infinity ? static_cast<double>(s.distance) : sky;
-    vertices_.push_back({frame.to_local(Vec3d(s.direction)) * distance, distance, Rgbd(s.radiance)});
-  }
+  // A radiance all round adds nothing where the mesh is closed: all is taken relative to one sample's, so that a
+  // furnace has exactly no derivatives. An open mesh ends at black.
+  const Rgbd base = horizon == Horizon::closed ? Rgbd(gather.samples.front().radiance) : Rgbd();
+  add_samples(gather);
+  for (Vertex& v : vertices_) v.radiance -= base;
   double inverse = 0;
   for (int k = 0; k < columns_; ++k) {
     inverse += 1 / vertex(0, k).distance / columns_;
@@ -97,6 +67,26 @@ Mesh::Mesh(const HemisphereGather& gather, Horizon horizon)
   pole_.position = {0, 0, pole_.distance};
   if (horizon == Horizon::closed) add_horizon(gather);
   add_cells();
+}
+
+/// The sky is as far as rounding allows: its 1/distance terms vanish. What lies under the record's own surface goes on
+/// as what is seen above it, so that there is no edge between them.
+void Mesh::add_samples(const HemisphereGather& gather) {
+  for (const GatherSample& s : gather.samples)
+    if (s.distance < infinity) farthest_hit_ = std::max(farthest_hit_, static_cast<double>(s.distance));
+  const double sky = 1e4 * farthest_hit_;
+  const Framed frame(gather.frame);
+  const auto row = static_cast<std::size_t>(columns_);
+  for (const GatherSample& s : gather.samples) {
+    const Vec3d direction = frame.to_local(Vec3d(s.direction));
+    if (s.surface == GatherSample::own_surface && vertices_.size() >= row) {
+      const Vertex above = vertices_[vertices_.size() - row];
+      vertices_.push_back({direction * above.distance, above.distance, above.radiance});
+      continue;
+    }
+    const double distance = s.distance < infinity ? static_cast<double>(s.distance) : sky;
+    vertices_.push_back({direction * distance, distance, Rgbd(s.radiance)});
+  }
 }
 
 /// A row on the horizon, under the outermost ring, on its hits' tangent planes.
@@ -134,18 +124,18 @@ LambertSum Mesh::sum() const {
   LambertSum sum;
   const auto fan = [&](int k) -> const Rgbd& { return farthest(pole_, vertex(0, k), vertex(0, k + 1)); };
   for (int k = 0; k < columns_; ++k) {
-    sum.add(pole_, vertex(0, k), fan(k), fan(k + columns_ - 1));
+    sum.add(pole_.position, vertex(0, k).position, fan(k), fan(k + columns_ - 1));
     for (int r = 0; r < rows_; ++r) {
       const Rgbd inside = r == 0 ? fan(k) : cell(r - 1, k).bc;
       const Rgbd outside = r + 1 < rows_ ? cell(r, k).da : Rgbd();
-      sum.add(vertex(r, k), vertex(r, k + 1), inside, outside);
+      sum.add(vertex(r, k).position, vertex(r, k + 1).position, inside, outside);
       if (r + 1 == rows_) continue;
       const Cell& here = cell(r, k);
-      sum.add(vertex(r, k), vertex(r + 1, k), here.ab, cell(r, k - 1).cd);
+      sum.add(vertex(r, k).position, vertex(r + 1, k).position, here.ab, cell(r, k - 1).cd);
       if (here.ac)
-        sum.add(vertex(r, k), vertex(r + 1, k + 1), here.da, here.ab);
+        sum.add(vertex(r, k).position, vertex(r + 1, k + 1).position, here.da, here.ab);
       else
-        sum.add(vertex(r + 1, k), vertex(r, k + 1), here.ab, here.bc);
+        sum.add(vertex(r + 1, k).position, vertex(r, k + 1).position, here.ab, here.bc);
     }
   }
   return sum;
@@ -155,9 +145,11 @@ LambertSum Mesh::sum() const {
 
 Jet<Rgb> schwarzhaupt_2012(const HemisphereGather& gather, Horizon horizon) {
   Jet<Rgb> jet = irradiance(gather);
-  const LambertSum sum = Mesh(gather, horizon).sum();
-  jet.translational = sum.gradient.to_world(gather.frame);
   jet.rotational = rotational_gradient(gather, RotationWeights::exact);
+  const Mesh mesh(gather, horizon);
+  if (!mesh.hits()) return jet;
+  const LambertSum sum = mesh.sum();
+  jet.translational = sum.gradient.to_world(gather.frame);
   jet.hessian = sum.hessian.to_world(gather.frame);
   return jet;
 }

@@ -37,6 +37,11 @@ struct Footprint {
     return f;
   }
 
+  /// t from its two parts: by the way from the record, and by the turn of the normal.
+  float combine(float away, float turned) const {
+    return falloff == Falloff::tabellion ? std::max(away, turned) : away + turned;
+  }
+
   /// Another falloff than the metric's, with what belongs to it.
   void set_falloff(Falloff wanted) {
     falloff = wanted;

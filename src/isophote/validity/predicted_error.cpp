@@ -24,7 +24,7 @@ float measure(const Record& record, const Vec3& q, const Vec3& n, const ErrorMod
   const float natural = f.unscaled * model.scale;
   const float distance = std::sqrt(quadratic_form(f.shape, q)) * (natural > 0 ? f.radius / natural : infinity);
   const float turned = f.normal_scale * std::sqrt(length_squared(n - record.normal) / 2);
-  return model.threshold * (f.falloff == Falloff::tabellion ? std::max(distance, turned) : distance + turned);
+  return model.threshold * f.combine(distance, turned);
 }
 
 }  // namespace

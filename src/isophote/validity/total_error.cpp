@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "isophote/core/frame.h"
+#include "isophote/validity/tangent_axes.h"
 
 namespace isophote {
 namespace {
@@ -17,20 +17,15 @@ struct Curvature {
 };
 
 Curvature curvature(const Jet<Rgb>& jet, const Vec3& normal, float irradiance) {
-  const Framed frame{Vec3d(normal)};
-  const Sym3d hessian(jet.hessian);
-  const double uu = quadratic_form(hessian, frame.u), vv = quadratic_form(hessian, frame.v);
-  const double uv = (quadratic_form(hessian, frame.u + frame.v) - uu - vv) / 2;
   // Axes from the signed form: of a saddle the absolute values say nothing.
-  const double angle = std::atan2(2 * uv, uu - vv) / 2, c = std::cos(angle), s = std::sin(angle);
-  const double mean = (uu + vv) / 2, half = std::hypot((uu - vv) / 2, uv);
+  const TangentAxes axes(Sym3d(jet.hessian), Vec3d(normal));
   const double value = 0.99 * luminance(Rgbd(jet.value)) + 0.01 * irradiance;
   const double over = value > 0 ? 1 / value : 0;
-  return {std::abs(mean + half) * over, std::abs(mean - half) * over, frame.u * c + frame.v * s,
-          frame.v * c - frame.u * s};
+  return {std::abs(axes.greater) * over, std::abs(axes.lesser) * over, axes.axis, axes.across};
 }
 
-/// |n - n_i| / sqrt 2 at which a record ends: an angle of 10 degrees for an error of 0.02, and its root.
+/// One over the |n - n_i| / sqrt 2 at which a record ends: an angle of 10 degrees for a bound of 0.02 on the error, and
+/// as its root.
 float normal_scale(float wanted) {
   const double angle = pi / 18 * std::sqrt(wanted / 0.02);
   return static_cast<float>(1 / std::sqrt(1 - std::cos(std::min(angle, pi / 2))));

@@ -11,8 +11,8 @@ namespace isophote {
 /// which the longer is at most `aspect` times the shorter; aspect 1 is the disk. Along the normal a footprint ends at
 /// its shorter axis.
 ///
-/// `wanted` is the mean relative error to aim at: eps / (pi R^2) averages to it over the visible points if
-/// eps = (wanted / rate)^2, rate being the mean of `error_rate` over them (Pilot). No radius is above a quarter of
+/// `wanted` is the mean to aim at of what this bounds, relative: eps / (pi R^2) averages to it over the visible points
+/// if eps = (wanted / rate)^2, rate being the mean of `error_rate` over them (Pilot). No radius is above a quarter of
 /// the scene's diagonal, which a place where the Hessian happens to vanish would else exceed.
 Footprint total_error(const Jet<Rgb>& jet, const View& view, float wanted, const RadiusBounds& bounds, float aspect);
 
