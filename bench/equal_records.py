@@ -18,9 +18,6 @@ GRADIENTS = ("ward1988", "ward1988+estimator=surface-area+order=1", "ward1988+es
              "ward1988+estimator=swept-edges+order=1")
 
 
-# What was computed by other sources is no result of these.
-if subprocess.run(["git", "diff", "--quiet", "HEAD", "--", "src", "bench/comparison"], cwd=ROOT).returncode:
-    sys.exit("src or bench/comparison is changed: results are kept by the commit that they are of, so commit first")
 SOURCES = "-".join(name[:8] for name in subprocess.run(["git", "rev-parse", "HEAD:src", "HEAD:bench/comparison"], cwd=ROOT, capture_output=True,
                                                        text=True, check=True).stdout.split())
 
@@ -31,15 +28,23 @@ class Scene:
         self.content = hashlib.sha256(self.path.read_bytes()).hexdigest()[:12]
 
 
-class Results:
-    """What has been computed, kept from run to run."""
+def require_commit():
+    if subprocess.run(["git", "diff", "--quiet", "HEAD", "--", "src", "bench/comparison"], cwd=ROOT).returncode:
+        sys.exit("src or bench/comparison is changed: results say which sources they are of, so commit first")
 
-    def __init__(self, trial):
-        self.trial = trial
+
+class Results:
+    """What has been computed, kept from run to run: the rows of tables in the repository, each file with the sources that it is of;
+    all else in the build folder, by sources. `anew`: rows of other sources than the present are measured again."""
+
+    def __init__(self, trial, anew=False):
+        self.trial, self.anew = trial, anew
         self.folder = BUILD / "comparison" / SOURCES / ("trial" if trial else "")
         self.folder.mkdir(parents=True, exist_ok=True)
         self.parts = BUILD / "comparison" / ("trial-parts" if trial else "parts")
         self.figures = self.folder if trial else ROOT / "docs" / "figures" / "comparison"
+        self.data = self.folder if trial else self.figures / "data"
+        self.data.mkdir(parents=True, exist_ok=True)
         self.page = self.folder / "comparison.md" if trial else ROOT / "docs" / "comparison.md"
         self.seeds, self.counts = (SEEDS[:1], (250, 500)) if trial else (SEEDS, COUNTS)
         self.points, self.point_rays, self.exact_rays = (300, 2000, 2000) if trial else (2000, 16384, 16384)
@@ -64,18 +69,20 @@ class Results:
     def measured(self, scene, rays, seed, variants, counts, pictures=None):
         """The rows that `bench_figures equal` prints, from an earlier run if there was one."""
         light = self.light(rays)
-        points = self.fixed_points(scene, light, self.rays_of_points(rays))
-        asked = [scene.size, str(seed), str(rays), ",".join(variants), ",".join(map(str, counts)), str(bool(pictures)), points.name]
+        asked = [scene.size, str(seed), str(rays), ",".join(variants), ",".join(map(str, counts)), str(self.points), str(self.rays_of_points(rays))]
         key = hashlib.sha256(" ".join(asked).encode()).hexdigest()[:8]
-        path = self.folder / f"equal-{scene.name}-{scene.content}-{rays}-{seed}-{key}.jsonl"
-        if not path.exists():
+        path = (self.folder if pictures else self.data) / f"{scene.name}-{rays}-{seed}-{scene.content}-{key}.jsonl"
+        if not path.exists() or self.anew and json.loads(path.read_text().splitlines()[0])["sources"] != SOURCES:
+            require_commit()
+            points = self.fixed_points(scene, light, self.rays_of_points(rays))
             command = [PROGRAM, "equal", scene.path, scene.size, light, str(seed), str(rays), points, asked[3], asked[4]]
             if pictures:
                 pictures.mkdir(parents=True, exist_ok=True)
                 command.append(pictures)
             out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-            path.write_text(out)
-        return [json.loads(line) for line in path.read_text().splitlines()]
+            path.write_text(json.dumps({"sources": SOURCES}) + "\n" + out)
+        sources, *rows = map(json.loads, path.read_text().splitlines())
+        return [row | sources for row in rows]
 
     def errors(self, scene, rays):
         """By variant and number of records: mean RMSE in % over seeds, half the range over seeds, records, the references' noise. One run
@@ -88,7 +95,8 @@ class Results:
                 mine = [row for row in rows if row["variant"] == variant and row["wanted"] == count]
                 rmse = [100 * row["rmse"] for row in mine]
                 result[variant, count] = {"rmse": sum(rmse) / len(rmse), "spread": (max(rmse) - min(rmse)) / 2,
-                                          "records": sum(row["records"] for row in mine) / len(mine), "noise": 100 * mine[0]["noise"]}
+                                          "records": sum(row["records"] for row in mine) / len(mine), "noise": 100 * mine[0]["noise"],
+                                          "sources": sorted({row["sources"] for row in mine})}
         return result
 
 
@@ -105,7 +113,7 @@ def comparison(results, scene, rays, variants):
     strata = noise * (2 * results.rays_of_points(rays) / rays) ** 0.5
     return (f"### {scene.name}, {scene.size}, {rays:,} rays a record\n\n" + table(["RMSE %, by records"] + [f"{count:,}" for count in results.counts], rows) +
             f"\n\nNoise: of the references {noise:.2f} % (taken out), of a record's own value about {strata:.2f} % (in all numbers, less where "
-            "several records overlap).\n")
+            f"several records overlap). Sources {', '.join(errors[variants[0], results.counts[0]]['sources'])}.\n")
 
 
 def methods(results):
