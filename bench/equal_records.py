@@ -35,11 +35,10 @@ def require_commit():
 
 class Results:
     """What has been computed, kept from run to run: the rows of tables in the repository, each file with the sources that it is of;
-    all else in the build folder, by sources. `anew`: rows of other sources than the present are measured again; `kept`: no rows are
-    measured."""
+    all else in the build folder, by sources."""
 
-    def __init__(self, trial, anew=False, kept=False):
-        self.trial, self.anew, self.kept = trial, anew, kept
+    def __init__(self, trial):
+        self.trial = trial
         self.folder = BUILD / "comparison" / SOURCES / ("trial" if trial else "")
         self.folder.mkdir(parents=True, exist_ok=True)
         self.parts = BUILD / "comparison" / ("trial-parts" if trial else "parts")
@@ -73,9 +72,7 @@ class Results:
         asked = [scene.size, str(seed), str(rays), ",".join(variants), ",".join(map(str, counts)), str(self.points), str(self.rays_of_points(rays))]
         key = hashlib.sha256(" ".join(asked).encode()).hexdigest()[:8]
         path = (self.folder if pictures else self.data) / f"{scene.name}-{rays}-{seed}-{scene.content}-{key}.jsonl"
-        if self.kept and not path.exists() and not pictures:
-            return []
-        if not path.exists() or self.anew and json.loads(path.read_text().splitlines()[0])["sources"] != SOURCES:
+        if not path.exists():
             require_commit()
             points = self.fixed_points(scene, light, self.rays_of_points(rays))
             command = [PROGRAM, "equal", scene.path, scene.size, light, str(seed), str(rays), points, asked[3], asked[4]]
@@ -93,14 +90,12 @@ class Results:
         variants = PRESETS + (PARTS[:1] if rays == self.exact_rays else PARTS) + GRADIENTS[1:]
         rows = [row for seed in self.seeds for row in self.measured(scene, rays, seed, variants, self.counts)]
         result = {}
-        if not rows:
-            return result
         for variant in variants:
             for count in self.counts:
                 mine = [row for row in rows if row["variant"] == variant and row["wanted"] == count]
                 rmse = [100 * row["rmse"] for row in mine]
                 result[variant, count] = {"rmse": sum(rmse) / len(rmse), "spread": (max(rmse) - min(rmse)) / 2,
-                                          "records": sum(row["records"] for row in mine) / len(mine), "noise": 100 * mine[0]["noise"], "seeds": len(mine),
+                                          "records": sum(row["records"] for row in mine) / len(mine), "noise": 100 * mine[0]["noise"],
                                           "sources": sorted({row["sources"] for row in mine})}
         return result
 
@@ -113,15 +108,13 @@ def cell(entry, count):
 
 def comparison(results, scene, rays, variants):
     errors = results.errors(scene, rays)
-    if not errors:
-        return f"### {scene.name}, {scene.size}, {rays:,} rays a record\n\nNot measured yet.\n"
     rows = [[variant] + [cell(errors[variant, count], count) for count in results.counts] for variant in variants]
     any_entry = errors[variants[0], results.counts[0]]
     noise = any_entry["noise"]
     strata = noise * (2 * results.rays_of_points(rays) / rays) ** 0.5
     return (f"### {scene.name}, {scene.size}, {rays:,} rays a record\n\n" + table(["RMSE %, by records"] + [f"{count:,}" for count in results.counts], rows) +
             f"\n\nNoise: of the references {noise:.2f} % (taken out), of a record's own value about {strata:.2f} % (in all numbers, less where "
-            f"several records overlap). Seeds: {any_entry['seeds']}; sources {', '.join(any_entry['sources'])}.\n")
+            f"several records overlap). Seeds: {len(results.seeds)}; sources {', '.join(any_entry['sources'])}.\n")
 
 
 def methods(results):

@@ -119,6 +119,7 @@ std::vector<std::string> serving_names(const Explanation& e) {
 }  // namespace
 
 Words words_of(Standing standing) {
+  // In the order of Standing.
   constexpr Words words[] = {{"beyond_rim", "the pixel is beyond its rim"},
                              {"facing_away", "it faces away"},
                              {"in_front", "it lies in front"},

@@ -216,8 +216,8 @@ class Rendering {
     }
     s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
     s.adaptive = job.method.adaptive, s.leak_test = job.method.leak_test;
-    // Where a threshold or a number of records was given, no error was asked for.
     s.records_asked = settings_.records;
+    // Where a threshold or a number of records was given, no error was asked for.
     if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
     s.seed = settings_.seed, s.threads = session_.threads();
     s.width = job.width, s.height = job.height, s.triangles = session_.loaded().scene.triangle_count();

@@ -165,9 +165,7 @@ Record Method::make_record(const Vec3& position, const Vec3& normal, const Jet<R
   record.footprint = metric->measure(record.jet, view, settings);
   if (settings.falloff) record.footprint.set_falloff(*settings.falloff);
   record.footprint.order = static_cast<std::uint8_t>(std::min(order, estimator->order));
-  // Metrics that settle limit it further. The darkest records have none: their reciprocal is beyond floats.
-  const float twice = 2 * luminance(jet.value);
-  if (record.footprint.order > 1 && twice > 1e-30f) record.curvature_scale = 1 / twice;
+  record.curvature_scale = Record::whole_curvature(jet.value);  // of which metrics that settle may leave less
   return record;
 }
 

@@ -19,7 +19,7 @@ void limit_extrapolation(Record& record, float natural_radius) {
   const float l = luminance(value), bend = norm(record.jet.hessian) * radius * radius / 2;
   constexpr float most_bend = 0.25f;  // of the value: beyond, a parabola says little
   const float left = bend > most_bend * l ? most_bend * l / bend : 1.0f;
-  record.curvature_scale = 2 * l > 1e-30f ? std::min(scale * scale, left) / (2 * l) : 0;
+  record.curvature_scale = std::min(scale * scale, left) * Record::whole_curvature(value);
 }
 
 }  // namespace isophote

@@ -13,8 +13,15 @@ struct Record {
   Vec3 normal;  ///< unit
   Footprint footprint;
   float gradient_scale = 1;   ///< what the limit on extrapolation leaves of the translational gradient
-  float curvature_scale = 0;  ///< of the Hessian: half of what is left over the value's luminance
+  float curvature_scale = 0;  ///< of the Hessian: the part left of `whole_curvature`
   Jet<Rgb> jet;               ///< irradiance
+
+  /// Half over the luminance of a value, which gives the second-order term its colour; 0 for the darkest values, whose
+  /// reciprocal is beyond floats.
+  static float whole_curvature(const Rgb& value) {
+    const float twice = 2 * luminance(value);
+    return twice > 1e-30f ? 1 / twice : 0;
+  }
 
   /// The value extrapolated to position + d and, to first order, from `normal` to the unit vector n. The Hessian, known
   /// of luminance, is taken to have the value's colour. Never negative.
