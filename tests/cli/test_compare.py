@@ -32,6 +32,12 @@ class Compare(ProgramTest):
         self.assertEqual(result.stderr.count("\n"), 1)
         self.assertEqual(self.run_program("compare", "1.exr", "1.exr", "--fail-above", "0").returncode, 0)
 
+    def test_what_pictures_have_in_common(self):
+        whole = self.measured("1.exr", "2.exr")["rmse"]
+        self.assertAlmostEqual(self.measured("1.exr", "2.exr", "--other", "1.exr")["rmse"], whole, delta=1e-6 * whole)
+        self.assertEqual(self.measured("1.exr", "2.exr", "--other", "2.exr")["rmse"], 0)
+        self.refused(1, ("compare", "1.exr", "2.exr", "--other", "missing.exr"), "missing.exr")
+
     def test_the_error_picture(self):
         self.done("compare", "1.exr", "2.exr", "--layer", "irradiance", "--error-picture", "error.png")
         self.assertEqual(png_size(self.folder / "error.png"), (32, 32))
@@ -49,7 +55,7 @@ class Compare(ProgramTest):
             self.refused(2, ("compare", "1.exr", "2.exr", "--error-picture", name), f"--error-picture {name}", ".png")
         self.assertEqual({name: (self.folder / name).read_bytes() for name in self.names()}, before)
         (self.folder / "2.exr").rename(self.folder / "2.png")
-        for arguments in (("1.exr", "2.png"), ("2.png", "1.exr"), ("1.exr", "1.exr", "--second", "2.png")):
+        for arguments in (("1.exr", "2.png"), ("2.png", "1.exr"), ("1.exr", "1.exr", "--second", "2.png"), ("1.exr", "1.exr", "--other", "2.png")):
             self.refused(2, ("compare", *arguments, "--error-picture", "./2.png"), "would overwrite")
         self.assertEqual((self.folder / "2.png").read_bytes(), before["2.exr"])
 

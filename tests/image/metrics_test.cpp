@@ -93,6 +93,22 @@ TEST(Metrics, NoiseLowersStructuralSimilarity) {
   EXPECT_GT(much, 0);
 }
 
+// Both pictures are brighter by a quarter in blotches and noisy by themselves; so are both references.
+TEST(Metrics, WhatTwoPicturesHaveInCommonIsSystematic) {
+  const auto noisy = [](std::uint64_t seed, float blotch) {
+    return make(256, 256, [=](int x, int y) {
+      const float noise = unit_float(static_cast<std::uint32_t>(hash(seed, x, y))) - 0.5f;
+      return Rgb(2 + noise + (x / 64 % 2 ? blotch : -blotch));
+    });
+  };
+  const RgbImage a = noisy(1, 0.25f), b = noisy(2, 0.25f), first = noisy(3, 0), second = noisy(4, 0);
+  const double noise = 1 / std::sqrt(12.0);
+  EXPECT_NEAR(compare(a, first, second).relative_rmse, std::hypot(0.25, noise) / 2, 2e-3);
+  EXPECT_NEAR(compare(a, b, first, second).relative_rmse, 0.125, 2e-3);
+  EXPECT_NEAR(compare(a, b, first, second).block_error, 0.125, 2e-3);
+  EXPECT_LT(compare(noisy(5, 0), noisy(6, 0), first, second).relative_rmse, 0.02);
+}
+
 TEST(Metrics, BlackReference) {
   const RgbImage black(9, 9);
   EXPECT_EQ(compare(black, black).relative_rmse, 0);

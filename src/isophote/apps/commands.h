@@ -35,7 +35,7 @@ struct ExplainRequest : SceneRequest {
 };
 
 struct CompareRequest {
-  std::string image, reference, second, layer, error_picture;
+  std::string image, other, reference, second, layer, error_picture;
   bool json = false;
   std::optional<double> fail_above;  ///< relative RMSE; none: never
   int block = 1;                     ///< average both over blocks of this size first

@@ -60,7 +60,8 @@ void check_files(const CompareRequest& request) {
   const std::array outputs{NamedFile{"--error-picture " + request.error_picture, request.error_picture}};
   require_png(outputs[0]);
   const std::array inputs{NamedFile{"the picture", request.image}, NamedFile{"the reference", request.reference},
-                          NamedFile{"the reference of --second", request.second}};
+                          NamedFile{"the reference of --second", request.second},
+                          NamedFile{"the picture of --other", request.other}};
   check_kept(inputs, outputs);
 }
 
@@ -73,7 +74,8 @@ int compare(const CompareRequest& request) {
   const RgbImage image = read_layer(request.image, request.layer, request.block);
   const RgbImage reference = read_layer(request.reference, request.layer, request.block);
   const RgbImage second = request.second.empty() ? reference : read_layer(request.second, request.layer, request.block);
-  const Difference d = isophote::compare(image, reference, second);
+  const RgbImage other = request.other.empty() ? image : read_layer(request.other, request.layer, request.block);
+  const Difference d = isophote::compare(image, other, reference, second);
   if (!request.error_picture.empty()) write_png(request.error_picture, error_picture(image, reference, 0.2f), 0);
   if (request.json) {
     const nlohmann::ordered_json json = {

@@ -78,6 +78,9 @@ void add_compare(CLI::App& program, app::CompareRequest& request) {
   verb->add_option("reference", request.reference, "EXR reference")->type_name("FILE")->required();
   verb->add_option("--second", request.second, "an independent second reference: the noise of both cancels")
       ->type_name("FILE");
+  verb->add_option("--other", request.other,
+                   "a picture like the first by another seed: only what both have in common counts as an error")
+      ->type_name("FILE");
   verb->add_option("--layer", request.layer, "layer of both, such as irradiance or depth (default: the colours)")
       ->type_name("NAME");
   verb->add_option("--block", request.block, "average over blocks of N x N pixels first")

@@ -91,11 +91,12 @@ double structural_similarity(const Plane& a, const Plane& b) {
   return sum / static_cast<double>(mean_a.pixels.size());
 }
 
-double block_rms(const RgbImage& image, const RgbImage& reference, const RgbImage& second) {
-  const RgbImage a = block_average(image, block), b = block_average(reference, block), c = block_average(second, block);
+double block_rms(const RgbImage& image, const RgbImage& other, const RgbImage& reference, const RgbImage& second) {
+  const RgbImage a = block_average(image, block), o = block_average(other, block);
+  const RgbImage b = block_average(reference, block), c = block_average(second, block);
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    sum += luminance(Rgbd(a.pixels[i]) - Rgbd(b.pixels[i])) * luminance(Rgbd(a.pixels[i]) - Rgbd(c.pixels[i]));
+    sum += luminance(Rgbd(a.pixels[i]) - Rgbd(b.pixels[i])) * luminance(Rgbd(o.pixels[i]) - Rgbd(c.pixels[i]));
   return root(sum / static_cast<double>(a.pixels.size()));
 }
 
@@ -110,13 +111,19 @@ RgbImage mean_image(const RgbImage& a, const RgbImage& b) {
 Difference compare(const RgbImage& image, const RgbImage& reference) { return compare(image, reference, reference); }
 
 Difference compare(const RgbImage& image, const RgbImage& reference, const RgbImage& second) {
+  return compare(image, image, reference, second);
+}
+
+Difference compare(const RgbImage& image, const RgbImage& other, const RgbImage& reference, const RgbImage& second) {
   require_comparable(image, reference);
+  require_comparable(other, reference);
   require_comparable(image, second);
   const RgbImage both = mean_image(reference, second);
   const double pixels = static_cast<double>(image.pixels.size());
   double squares = 0, all_channels = 0, luminance_sum = 0, reference_luminance_sum = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const Rgbd a(image.pixels[i]), to_first = a - Rgbd(reference.pixels[i]), to_second = a - Rgbd(second.pixels[i]);
+    const Rgbd a(image.pixels[i]), o(other.pixels[i]);
+    const Rgbd to_first = a - Rgbd(reference.pixels[i]), to_second = o - Rgbd(second.pixels[i]);
     const Rgbd product = to_first * to_second, b(both.pixels[i]);
     squares += product.r + product.g + product.b;
     all_channels += mean(b);
@@ -127,8 +134,9 @@ Difference compare(const RgbImage& image, const RgbImage& reference, const RgbIm
 
   double relative_squares = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const double a = luminance(Rgbd(image.pixels[i])), b = luminance(Rgbd(both.pixels[i]));
-    const double product = (a - luminance(Rgbd(reference.pixels[i]))) * (a - luminance(Rgbd(second.pixels[i])));
+    const double a = luminance(Rgbd(image.pixels[i])), o = luminance(Rgbd(other.pixels[i]));
+    const double b = luminance(Rgbd(both.pixels[i]));
+    const double product = (a - luminance(Rgbd(reference.pixels[i]))) * (o - luminance(Rgbd(second.pixels[i])));
     relative_squares += relative(product, square(b) + square(0.01 * mean_reference));
   }
 
@@ -137,7 +145,7 @@ Difference compare(const RgbImage& image, const RgbImage& reference, const RgbIm
   d.relative_rmse = relative(d.rmse, all_channels / pixels);
   d.relative_mse = std::max(0.0, relative_squares / pixels);
   d.bias = relative(luminance_sum - reference_luminance_sum, reference_luminance_sum);
-  d.block_error = relative(block_rms(image, reference, second), mean_reference);
+  d.block_error = relative(block_rms(image, other, reference, second), mean_reference);
   const float exposure = auto_exposure(both);
   d.ssim = structural_similarity(displayed(image, exposure), displayed(both, exposure));
   return d;

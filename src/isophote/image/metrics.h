@@ -26,6 +26,11 @@ Difference compare(const RgbImage& image, const RgbImage& reference);
 /// squared error negative, which counts as 0. `ssim` is against the mean of both.
 Difference compare(const RgbImage& image, const RgbImage& reference, const RgbImage& second);
 
+/// What two pictures, alike but for their random numbers, have in common: the product of the difference of one to the
+/// first reference and of the other to the second stands for the squared difference, so that the noise of the pictures
+/// cancels too, and what is left is systematic. `bias` and `ssim` are of the first.
+Difference compare(const RgbImage& image, const RgbImage& other, const RgbImage& reference, const RgbImage& second);
+
 /// Means over n x n blocks; a last incomplete row or column of blocks is averaged over what it has.
 RgbImage block_average(const RgbImage& image, int n);
 
