@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// Where things lie in a file: magic, version, scene, length of the settings, settings, survey with threshold, count,
 /// records, checksum.
-inline constexpr std::size_t settings_at = 24, survey_bytes = 17, record_bytes = 230;
+inline constexpr std::size_t settings_at = 24, survey_bytes = 17, record_bytes = 234;
 
 class RecordFileTest : public testing::Test {
  protected:
@@ -51,6 +51,9 @@ class RecordFileTest : public testing::Test {
       r.jet.value = random.colour(0, 1e6f);
       r.jet.translational = random.gradient(3);
       r.jet.rotational = random.gradient(3);
+      r.jet.standard_error = random.number(0, 1e3f);
+      r.jet.gradient_error = i % 2 ? infinity : 4;
+      r.jet.rays = 200;
       r.jet.distances.harmonic_mean = i % 2 ? infinity : 2;
       for (int s = i % 3; s < Obstacles::sectors; s += 3) r.jet.distances.obstacles.meet(s, random.number(0, 9));
       file.records.push_back(r);

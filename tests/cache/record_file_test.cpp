@@ -47,12 +47,12 @@ TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
 TEST_F(RecordFileTest, IsLittleEndianAndVersioned) {
   write_records(path_, sample(1));
   const std::string content = bytes();
-  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\4\0\0\0", 12));
+  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\5\0\0\0", 12));
   EXPECT_EQ(static_cast<unsigned char>(content[12]), 0xef);  // the scene's lowest byte
   std::string later = content;
-  put_integer(later, 8, 5, 4);
+  put_integer(later, 8, 6, 4);
   put_signed(later);
-  EXPECT_EQ(refusal(), "has version 5, this program reads 4");
+  EXPECT_EQ(refusal(), "has version 6, this program reads 5");
 }
 
 TEST_F(RecordFileTest, FlatFootprintsAreKept) {

@@ -19,7 +19,7 @@ namespace isophote {
 namespace {
 
 constexpr char magic[8] = {'I', 'S', 'O', 'P', 'H', 'R', 'E', 'C'};
-constexpr std::uint32_t version = 4;
+constexpr std::uint32_t version = 5;
 
 /// Puts numbers into bytes, least significant first.
 struct Packer {
@@ -66,7 +66,7 @@ void transfer(Stream& io, Record& r) {
   io(r.gradient_scale), io(r.curvature_scale);
   rgb(r.jet.value), gradient(r.jet.translational), gradient(r.jet.rotational);
   form(r.jet.hessian);
-  io(r.jet.standard_error), io(r.jet.rays);
+  io(r.jet.standard_error), io(r.jet.gradient_error), io(r.jet.rays);
   io(r.jet.distances.harmonic_mean);
   Obstacles& obstacles = r.jet.distances.obstacles;
   for (std::uint16_t& sector : obstacles.nearest) io(sector);
@@ -127,7 +127,8 @@ bool bounded(const Jet<Rgb>& jet, float radius) {
   const Obstacles& obstacles = jet.distances.obstacles;
   for (int i = 0; i < Obstacles::sectors; ++i)
     if (!within(obstacles.distance(i), 0, infinity)) return false;
-  return within(jet.distances.harmonic_mean, 0, infinity);
+  return within(jet.distances.harmonic_mean, 0, infinity) && within(jet.standard_error, 0, most) &&
+         within(jet.gradient_error, 0, infinity);
 }
 
 /// The second-order term too is bounded wherever the record serves.

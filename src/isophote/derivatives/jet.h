@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "isophote/core/rgb.h"
 #include "isophote/core/sym3.h"
@@ -35,7 +36,9 @@ struct Jet {
   Gradient<V> rotational;     ///< the normal turns, the position stays
   Sym3 hessian;               ///< of luminance, per square metre, in the tangent plane; zero where none is estimated
   float standard_error = 0;   ///< of the value's luminance, judged by the samples that made it
-  std::uint32_t rays = 0;     ///< how many those were
+  float gradient_error = std::numeric_limits<float>::infinity();  ///< of a component of the translational gradient,
+                                                                  ///< likewise; infinite where none is known
+  std::uint32_t rays = 0;                                         ///< how many those were
   DistanceStats distances;
 };
 

@@ -6,14 +6,15 @@
 
 namespace isophote {
 
-double standard_error(const HemisphereGather& gather) {
+std::vector<double> stratum_variances(const HemisphereGather& gather) {
   const Strata& s = gather.strata;
   std::vector<double> seen;
   seen.reserve(gather.samples.size());
   for (const GatherSample& sample : gather.samples) seen.push_back(luminance(Rgbd(sample.radiance)));
   const auto n = static_cast<std::size_t>(s.azimuthal);
   const auto half_square = [](double difference) { return difference * difference / 2; };
-  double variance = 0;
+  std::vector<double> variances;
+  variances.reserve(seen.size());
   for (std::size_t j = 0; j < static_cast<std::size_t>(s.polar); ++j)
     for (std::size_t k = 0; k < n; ++k) {
       const double here = seen[j * n + k];
@@ -23,9 +24,15 @@ double standard_error(const HemisphereGather& gather) {
         const std::size_t ring = j + 1 < static_cast<std::size_t>(s.polar) ? j + 1 : j - 1;
         sum += half_square(seen[ring * n + k] - here), ++neighbours;
       }
-      variance += sum / neighbours;
+      variances.push_back(sum / neighbours);
     }
-  return std::numbers::pi / s.size() * std::sqrt(variance);
+  return variances;
+}
+
+double standard_error(const HemisphereGather& gather) {
+  double variance = 0;
+  for (const double v : stratum_variances(gather)) variance += v;
+  return std::numbers::pi / gather.strata.size() * std::sqrt(variance);
 }
 
 }  // namespace isophote

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "isophote/derivatives/standard_error.h"
 #include "isophote/derivatives/tangent.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
 
@@ -41,17 +42,30 @@ Jet<Rgb> swept_edges(const HemisphereGather& gather) {
   Jet<Rgb> jet = irradiance(gather);
   TangentGradient gradient;
   TangentHessian hessian;
+  // The gradient is a sum of radiances, each times what the walls of its stratum sweep.
+  struct Sweep {
+    double u = 0, v = 0;
+  };
+  std::vector<Sweep> sweeps(gather.samples.size());
   for_each_swept_edge(gather, [&](const SweptEdge& e) {
     const EdgeMoments s(e);
     const Rgbd step = (Rgbd(e.to->radiance) - Rgbd(e.from->radiance)) * e.sign;
     const double first = (s.s20 * e.m.z + s.s11 * e.t.z) / e.h;
     gradient.u += step * (e.c.x * first), gradient.v += step * (e.c.y * first);
+    Sweep &gains = sweeps[e.to - gather.samples.data()], &loses = sweeps[e.from - gather.samples.data()];
+    gains.u += e.sign * e.c.x * first, gains.v += e.sign * e.c.y * first;
+    loses.u -= e.sign * e.c.x * first, loses.v -= e.sign * e.c.y * first;
     const Vec3d q = e.m * (s.s40 * e.m.z + s.s31 * e.t.z) + e.t * (s.s31 * e.m.z + s.s22 * e.t.z);
     const double second = 2 * luminance(step) / (e.h * e.h);
     hessian.uu += second * 2 * e.c.x * q.x;
     hessian.uv += second * (e.c.x * q.y + e.c.y * q.x);
     hessian.vv += second * 2 * e.c.y * q.y;
   });
+  const std::vector<double> variances = stratum_variances(gather);
+  double variance = 0;
+  for (std::size_t i = 0; i < sweeps.size(); ++i)
+    variance += variances[i] * (sweeps[i].u * sweeps[i].u + sweeps[i].v * sweeps[i].v) / 2;
+  jet.gradient_error = static_cast<float>(std::sqrt(variance));
   jet.translational = gradient.to_world(gather.frame);
   jet.rotational = rotational_gradient(gather, RotationWeights::exact);
   jet.hessian = hessian.to_world(gather.frame);
