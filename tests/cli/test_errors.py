@@ -40,8 +40,10 @@ class BadUsage(ProgramTest):
         for flags in (("--metric", "uniform"), ("--estimator", "irradiance"), ("--records", "100"), ("--order", "lazy"),
                       ("--save-cache", "c"), ("--load-cache", "c"), ("--show-records", "r.png"), ("--show-error", "e.png")):
             self.refused_render(("--method", "path", *flags), "path")
-        self.refused_render(("--secondary", "on", "--max-depth", "3"), "--max-depth")
+        self.refused_render(("--secondary", "records", "--max-depth", "3"), "--max-depth")
         self.refused_render(("--records", "100", "--order", "lazy"), "--records")
+        self.refused_render(("--regress", "on", "--order", "lazy"), "--regress")
+        self.refused_render(("--regress", "on", "--method", "ward1992"), "--regress", "Hessian")
         self.refused_render(("--records", "100", "--load-cache", "c"), "--records")
         for flags in (("--error", "0.1", "--a", "0.3"), ("--a", "0.3", "--records", "9"), ("--records", "9", "--error", "0.1")):
             self.refused(2, ("render", BOX, *flags, "-o", "out.exr"), flags[0], flags[2], "give one")
@@ -60,7 +62,8 @@ class BadUsage(ProgramTest):
             "--max-depth": ("0", "-1"),
             "--threads": ("-1", "x", "100000"),
             "--seed": ("-1", "x", "0.5"),
-            "--secondary": ("maybe", ""),
+            "--secondary": ("maybe", "on", ""),
+            "--regress": ("maybe", ""),
             "--leak-test": ("maybe", ""),
             "--refine": ("-1", "x", "100"),
             "--bound-neighbours": ("on", "-1"),

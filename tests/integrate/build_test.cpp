@@ -2,6 +2,7 @@
 
 #include "integrate/stage.h"
 #include "isophote/integrate/jet_memo.h"
+#include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/solve_records.h"
 #include "support/scenes.h"
@@ -150,7 +151,8 @@ TEST(LazyOrder, CoversEverythingWithAboutTheRecordsOfRounds) {
     const std::size_t surveyed = wants_survey(job.method) ? surveyed_places : 0;
     EXPECT_EQ(lazy.build_rays.camera > 0, surveyed > 0);
     // One gather ray a stratum, and those that go on through mirrors, of which there are none here.
-    EXPECT_LE(lazy.build_rays.gather, (cache.records().size() + surveyed) * job.strata.size());
+    const std::size_t seeded = cache.cells().cells().empty() ? 0 : 2 * surveyed_places * Strata::about(200).size();
+    EXPECT_LE(lazy.build_rays.gather, (cache.records().size() + surveyed) * job.strata.size() + seeded);
     EXPECT_GE(lazy.build_rays.gather, cache.records().size() * job.strata.size());
     const double surplus =
         static_cast<double>(rounds.cache.records().size()) / static_cast<double>(cache.records().size());
@@ -158,11 +160,11 @@ TEST(LazyOrder, CoversEverythingWithAboutTheRecordsOfRounds) {
     // Both cover the same samples.
     EXPECT_GT(surplus, 0.6);
     EXPECT_LT(surplus, 1.15);
-    // What is covered and surveyed takes no more rays.
+    // What is covered and surveyed takes next to no more rays: a record that came later may have shrunk one before it.
     job.pilot = lazy.pilot;
     Film same(job.width, job.height);
     const LazyReport again = render_lazily(job, cache, same);
-    EXPECT_EQ(again.build_rays.gather, 0u);
+    EXPECT_LT(again.build_rays.gather, lazy.build_rays.gather / 100);
     EXPECT_EQ(again.pilot, lazy.pilot);
     // Both know the same light: the deviation of this bias is about half a percent.
     EXPECT_LT(std::abs(compare(film.irradiance(), rounds.film.irradiance()).bias), 0.02);
@@ -193,7 +195,8 @@ TEST(Cancelled, AfterTheFirstRoundThePictureShowsWhatIsCovered) {
       const FirstPoint seen = first_point(job.world, job.camera_ray(x, y, stream), true, stream, counts.camera);
       const std::optional<Place> place = place_of(job, seen);
       if (!place) continue;
-      const auto cached = r.cache.interpolate({place->position, place->normal, seen.point->bsdf.frame.n});
+      const auto cached =
+          r.cache.interpolate({place->position, place->normal, seen.point->bsdf.frame.n}, LeakTest{job.world, counts});
       const std::size_t i = static_cast<std::size_t>(y) * job.width + x;
       EXPECT_EQ(alpha[i], cached ? 1 : 0);
       EXPECT_EQ(irradiance.pixels[i], cached.value_or(Rgb{}));

@@ -26,7 +26,7 @@ std::vector<Reference> references(const Job& job, std::size_t count) {
     HemisphereGather gather;
     const auto irradiance = [&](std::uint64_t half) {
       const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::test), i, half);
-      gather_hemisphere(job.world, nullptr, all[i].place, Strata::about(1600), key, gather, counts);
+      gather_hemisphere(job.world, {}, all[i].place, Strata::about(1600), key, gather, counts);
       Rgbd sum;
       for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
       return luminance(sum) * M_PI / gather.strata.size();

@@ -20,7 +20,8 @@ void expect_near(const Rgb& a, const Rgb& b, float tolerance) {
 
 Pilot pilot_of(const Job& job) {
   RayCounts counts;
-  return survey(job, random_places(job, counts), counts).pilot;
+  RecordCache cache = empty_cache(job);
+  return survey(job, cache, random_places(job, counts), counts).pilot;
 }
 
 // Shares add up to 1, extrapolated values to what is interpolated, and predictions to the map's.
@@ -32,18 +33,18 @@ TEST(Explain, SharesMakeUpTheValue) {
     job.pilot = pilot_of(job);
     const Rendered rendered = render_all(job);
     RayCounts rays;
-    const RecordMaps maps = record_maps(job, rendered.cache, rays);
+    const RecordMaps maps = record_maps(job, rendered.shown, rays);
     const RgbImage direct = rendered.layer("direct"), indirect = rendered.layer("indirect");
     int explained = 0;
     for (int i = 0; i < 48 * 48; i += 37) {
       const int x = i % 48, y = i / 48;
-      const Explanation e = explain(job, rendered.cache, x, y);
+      const Explanation e = explain(job, rendered.shown, x, y);
       EXPECT_EQ(e.mean.direct, direct.at(x, y)) << name;
       EXPECT_EQ(e.mean.indirect, indirect.at(x, y)) << name;
       EXPECT_EQ(e.irradiance.has_value(), !e.serving.empty());
       if (!e.irradiance) continue;
       ++explained;
-      EXPECT_EQ(*e.irradiance, *rendered.cache.interpolate(query_at(*e.seen.point)));
+      EXPECT_EQ(*e.irradiance, *rendered.shown.interpolate(query_at(*e.seen.point)));
       float share = 0, error = 0, last = 1;
       Rgb sum;
       for (const ServingRecord& s : e.serving) {

@@ -48,10 +48,10 @@ TEST(Furnace, RecordsOfPathsAreUnbiased) {
   }
 }
 
-TEST(Furnace, CachesGiveTheSumOfTheSeriesWithSecondaryCachingOnAndOff) {
+TEST(Furnace, CachesGiveTheSumOfTheSeriesWhateverGathersRead) {
   const Stage stage = furnace();
-  for (const bool secondary : {false, true}) {
-    SCOPED_TRACE(secondary);
+  for (const Secondary secondary : {Secondary::off, Secondary::cells, Secondary::records, Secondary::automatic}) {
+    SCOPED_TRACE(name_of(secondary));
     Job job = stage.job(method("cached", 0.02), 64, 64, 4);
     job.method.secondary = secondary;
     const Rendered r = render_all(job);

@@ -25,17 +25,19 @@ RgbImage reference_irradiance(const Stage& stage, const std::string& camera, int
   return a;
 }
 
-RgbImage cached_irradiance(const Stage& stage, const std::string& camera, int rays = 3200) {
+RgbImage cached_irradiance(const Stage& stage, const std::string& camera, int rays = 3200, std::uint64_t seed = 0) {
   Job job = stage.job(method("cached", asked), width, height, 16, camera);
+  job.seed = seed;
   job.strata = Strata::about(rays);
   return render_all(job).layer("irradiance");
 }
 
 /// Through records of another view first.
 RgbImage irradiance_after(const Stage& stage, const std::string& first, const std::string& camera,
-                          const Method& how = method("cached", asked), int rays = 3200) {
+                          const Method& how = method("cached", asked), int rays = 3200, std::uint64_t seed = 0) {
   Job before = stage.job(how, width, height, 16, first), job = stage.job(how, width, height, 16, camera);
   before.strata = job.strata = Strata::about(rays);
+  before.seed = job.seed = seed;
   RecordCache cache = empty_cache(job);
   build_in_rounds(before, cache);
   build_in_rounds(job, cache);
@@ -92,13 +94,16 @@ TEST(SlowLeaks, UnderThePlateBesideSunlitGround) {
 /// footprints reach across the wall, and it is the leak test alone that keeps the dark room dark.
 TEST(Leaks, TheDarkRoomStaysDarkAmongTheBrightOnesRecords) {
   const Stage stage("thin-wall.glb");
-  const auto mean = [&](bool leak_test) {
+  // What cells have by chance all records have in common: about a percent, so that it takes several seeds.
+  constexpr std::uint64_t seeds = 4;
+  double alone = 0, tested = 0, untested = 0;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     Method how = method("cached", asked);
-    how.leak_test = leak_test;
-    return mean_luminance(irradiance_after(stage, "bright", "dark", how, 800));
-  };
-  const double alone = mean_luminance(cached_irradiance(stage, "dark", 800)), tested = mean(true),
-               untested = mean(false);
+    alone += mean_luminance(cached_irradiance(stage, "dark", 800, seed));
+    tested += mean_luminance(irradiance_after(stage, "bright", "dark", how, 800, seed));
+    how.leak_test = false;
+    untested += mean_luminance(irradiance_after(stage, "bright", "dark", how, 800, seed));
+  }
   std::printf("dark room after the bright one: %+.3f with the leak test, %+.3f without\n", tested / alone - 1,
               untested / alone - 1);
   EXPECT_NEAR(tested / alone, 1, 0.03);

@@ -10,7 +10,8 @@ namespace {
 
 Survey survey_of(const Stage& stage, const Method& m, RayCounts& counts) {
   const Job job = stage.job(m, 32, 32, 1);
-  return survey(job, random_places(job, counts), counts);
+  RecordCache cache = empty_cache(job);
+  return survey(job, cache, random_places(job, counts), counts);
 }
 
 // In a furnace irradiance is known, nothing bends and nothing varies.

@@ -18,6 +18,7 @@ struct Refined {
 Refined refine_once(const Stage& stage, int threads) {
   Job job = stage.job(method("cached", 0.1), 48, 48, 1);
   job.method.adaptive = true;
+  job.method.regress = false;  // so that the records' own noise shows
   job.parallel = thread_for(threads);
   Refined r{empty_cache(job), empty_cache(job), {}, {}, {}};
   const BuildReport built = build_in_rounds(job, r.first);

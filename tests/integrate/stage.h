@@ -12,6 +12,7 @@
 #include "isophote/image/metrics.h"
 #include "isophote/integrate/build.h"
 #include "isophote/integrate/make_record.h"
+#include "isophote/integrate/regress.h"
 #include "isophote/integrate/render.h"
 #include "isophote/load/scene_file.h"
 
@@ -61,7 +62,7 @@ class Stage {
 
 struct Rendered {
   Film film;
-  RecordCache cache;
+  RecordCache cache, shown;  ///< as built; as the picture reads it
   BuildReport build;
   RenderReport final;
 
@@ -70,9 +71,10 @@ struct Rendered {
 };
 
 inline Rendered render_all(const Job& job) {
-  Rendered r{Film(job.width, job.height), empty_cache(job), {}, {}};
+  Rendered r{Film(job.width, job.height), empty_cache(job), empty_cache(job), {}, {}};
   if (job.method.caches()) r.build = build_in_rounds(job, r.cache);
-  r.final = render(job, job.method.caches() ? &r.cache : nullptr, r.film);
+  r.shown = job.method.regress && !r.build.cancelled ? regressed(job, r.cache, r.build.rays) : r.cache;
+  r.final = render(job, job.method.caches() ? &r.shown : nullptr, r.film);
   return r;
 }
 

@@ -73,6 +73,8 @@ int explain(const ExplainRequest& request) {
     fmt::print(stderr, "isophote: interrupted: the records are not complete\n");
     return 1;
   }
+  RayCounts counts;
+  if (std::optional<RecordCache> fitted = session.fitted(cache, counts)) cache = std::move(*fitted);
   const Explanation explanation = isophote::explain(job, cache, at.x, at.y);
   const ExplainedPixel pixel{job, cache, at.x, at.y};
   request.json ? print_explanation_json(pixel, explanation) : print_explanation(pixel, explanation);

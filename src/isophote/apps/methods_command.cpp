@@ -14,7 +14,7 @@ int methods() {
     const std::string what = std::string(m.summary) + (m.paper.empty() ? "" : " ") + std::string(m.paper);
     if (m.caches())
       rows.push_back({std::string(m.name), std::string(m.estimator->name), std::string(m.metric->name),
-                      describe(m.settings.bounds), m.secondary ? "on" : "off", what});
+                      describe(m.settings.bounds), std::string(name_of(m.secondary)), what});
     else
       rows.push_back({std::string(m.name), "-", "-", "-", "-", what});
   }

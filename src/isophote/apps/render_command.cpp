@@ -69,6 +69,7 @@ class Rendering {
     if (settings_.lazy) {
       const LazyReport report = render_lazily(job(), cache, film);
       job().pilot = report.pilot;
+      statistics_.seeding = report.seeding;
       statistics_.time.build = report.build;
       statistics_.rays += report.build_rays;
       build_rays_ = report.build_rays.total();
@@ -78,14 +79,14 @@ class Rendering {
       build(cache);
       statistics_.time.build = Clock::now() - begin;
       refine(cache);
-      final_pass(&cache, film);
+      final_pass(&shown(cache), film);
     }
     statistics_.records = cache.records().size();
     for (const Record& record : cache.records()) statistics_.record_rays += record.jet.rays;
     statistics_.record_rays /= std::max(1.0, static_cast<double>(cache.records().size()));
     if (!request_.save_cache.empty()) session_.save(cache, request_.save_cache);
-    show(cache);
-    if (request_.check && !measured_ && !statistics_.cancelled) check(cache);
+    show(shown(cache));
+    if (request_.check && !measured_ && !statistics_.cancelled) check(shown(cache));
   }
 
   /// Pictures of what the cache is like.
@@ -133,7 +134,7 @@ class Rendering {
   void refine(RecordCache& cache) {
     int& turn = statistics_.refinements;
     for (; turn < request_.refine && !statistics_.cancelled; ++turn) {
-      check(cache);
+      check(shown(cache));
       const double asked = settings_.error.value_or(default_error);
       if (!statistics_.error.exceeds(asked)) return;
       const Clock begin = Clock::now();
@@ -146,13 +147,27 @@ class Rendering {
   /// Takes account of records that were added to the cache.
   void added(BuildReport report) {
     measured_ = false;
+    fitted_.reset();
     job().pilot = report.pilot;
+    job().method.secondary = report.seeding.chosen;
+    statistics_.seeding = report.seeding;
     places_ = std::move(report.places);
     statistics_.rounds += report.rounds;
     statistics_.passes += report.passes;
     statistics_.rays += report.rays;
     build_rays_ += report.rays.total();
     statistics_.cancelled = statistics_.cancelled || report.cancelled;
+  }
+
+  /// The records as pictures show them: those of the cache, or what is fitted to them.
+  const RecordCache& shown(const RecordCache& cache) {
+    if (!job().method.regress || statistics_.cancelled) return cache;
+    if (!fitted_) {
+      const Clock begin = Clock::now();
+      fitted_ = session_.fitted(cache, statistics_.rays);
+      statistics_.time.build += Clock::now() - begin;
+    }
+    return *fitted_;
   }
 
   void check(const RecordCache& cache) {
@@ -214,8 +229,8 @@ class Rendering {
       s.extrapolate = std::min(job.method.order, job.method.estimator->order);
       s.bounds = describe(job.method.settings.bounds);
     }
-    s.lazy = settings_.lazy, s.secondary = job.method.secondary, s.strata = job.strata;
-    s.adaptive = job.method.adaptive, s.leak_test = job.method.leak_test;
+    s.lazy = settings_.lazy, s.secondary = session_.method().secondary, s.strata = job.strata;
+    s.adaptive = job.method.adaptive, s.leak_test = job.method.leak_test, s.regress = job.method.regress;
     s.records_asked = settings_.records;
     // Where a threshold or a number of records was given, no error was asked for.
     if (!settings_.a && !settings_.records) s.error_asked = settings_.error.value_or(default_error);
@@ -234,6 +249,7 @@ class Rendering {
   std::uint64_t build_rays_ = 0;
   bool measured_ = false;      // the cache as it is now
   std::vector<Place> places_;  // of the records that this run made
+  std::optional<RecordCache> fitted_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "isophote/cache/record_file.h"
 #include "isophote/core/error.h"
 #include "isophote/integrate/film.h"
+#include "isophote/integrate/regress.h"
 #include "isophote/integrate/scene_hash.h"
 #include "isophote/integrate/solve_records.h"
 #include "isophote/load/memory_budget.h"
@@ -45,8 +46,8 @@ std::string record_settings(const Job& job) {
       m.estimator->name, m.metric->name, m.settings.a, b.min_pixels, b.max_pixels, b.min_view, b.max_view, b.min_length,
       b.max_length, b.gradient, b.neighbours, m.settings.aspect, m.order,
       m.settings.falloff ? static_cast<int>(*m.settings.falloff) : -1,
-      m.adaptive ? "auto" : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal), m.secondary, m.leak_test,
-      job.world.max_depth);
+      m.adaptive ? "auto" : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal), name_of(m.secondary),
+      m.leak_test, job.world.max_depth);
 }
 
 }  // namespace
@@ -150,7 +151,13 @@ BuildReport Session::build(RecordCache& cache) {
     report = build_in_rounds(*job_, cache);
   }
   job_->pilot = report.pilot;
+  job_->method.secondary = report.seeding.chosen;
   return report;
+}
+
+std::optional<RecordCache> Session::fitted(const RecordCache& cache, RayCounts& counts) const {
+  if (!job_->method.regress) return std::nullopt;
+  return regressed(*job_, cache, counts);
 }
 
 void Session::save(const RecordCache& cache, const std::string& path) const {

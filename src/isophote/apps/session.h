@@ -42,6 +42,8 @@ class Session {
   RecordCache starting_cache();
   /// Adds what the picture lacks; with --records, builds anew.
   BuildReport build(RecordCache& cache);
+  /// The records as pictures read them: fitted to each other, where the method does that. Else nothing: as they are.
+  std::optional<RecordCache> fitted(const RecordCache& cache, RayCounts& counts) const;
   void save(const RecordCache& cache, const std::string& path) const;
 
  private:

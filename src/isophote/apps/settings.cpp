@@ -50,6 +50,12 @@ Falloff falloff(const std::string& text) {
   throw UsageError(fmt::format("wants ward, tent or tabellion, not '{}'", text));
 }
 
+Secondary secondary(const std::string& text) {
+  for (const Secondary s : {Secondary::off, Secondary::cells, Secondary::records, Secondary::automatic})
+    if (text == name_of(s)) return s;
+  throw UsageError(fmt::format("wants off, cells, records or auto, not '{}'", text));
+}
+
 using S = RenderSettings;  // the two parameter types of every line below
 using T = const std::string&;
 
@@ -82,11 +88,17 @@ constexpr Option table[] = {
      "others; "
      "method path ignores it)",
      [](S& s, T t) { s.rays = t == "auto" ? 0 : number<int>(t, 12, 1 << 24); }},
-    {"method", "secondary", "on|off", "do gather rays read the cache where they hit?",
-     [](S& s, T t) { s.secondary = on_off(t); }, true},
+    {"method", "secondary", "off|cells|records|auto",
+     "what gather rays read where they hit: nothing, so that paths go on; irradiance averaged over the cells of a "
+     "grid; "
+     "the records so far, and cells elsewhere; auto: records or off, by a pilot (method cached: auto)",
+     [](S& s, T t) { s.secondary = secondary(t); }, true},
     {"method", "leak-test", "on|off",
      "are records tested for what stands between them and a point? (method cached: on)",
      [](S& s, T t) { s.leak_test = on_off(t); }, true},
+    {"method", "regress", "on|off",
+     "is each record fitted to what its neighbours say of it, once all are made? (method cached: on)",
+     [](S& s, T t) { s.regress = on_off(t); }, true},
     {"method", "max-depth", "N", "scattering events after the camera; 1 is direct light (default: no limit)",
      [](S& s, T t) { s.max_depth = number<int>(t, 1, 1 << 30); }},
     {"method", "order", "rounds|lazy", "how the cache is built (default: rounds)",
@@ -186,11 +198,20 @@ Method chosen_method(const RenderSettings& s) {
   method.order = s.extrapolate.value_or(method.order);
   method.settings.a = s.a ? *s.a : threshold(*method.metric, s.error.value_or(default_error));
   // A cached value has no depth: with a limit on depth, gather rays follow their paths.
-  method.secondary = s.secondary.value_or(method.secondary && !s.max_depth);
-  if (method.secondary && s.max_depth) throw UsageError("--secondary on has no limit of depth: leave out --max-depth");
+  method.secondary = s.secondary.value_or(s.max_depth ? Secondary::off : method.secondary);
+  if (method.secondary != Secondary::off && s.max_depth)
+    throw UsageError(
+        fmt::format("--secondary {} has no limit of depth: leave out --max-depth", name_of(method.secondary)));
   // A number of records is for comparisons: their rays are given, not chosen.
   method.adaptive = s.rays ? *s.rays == 0 : method.adaptive && !s.records;
   method.leak_test = s.leak_test.value_or(method.leak_test);
+  // In Ward's order pixels have been drawn before the last record is made.
+  method.regress = s.regress.value_or(method.regress && !s.lazy && method.estimator->order > 1);
+  if (method.regress && s.lazy)
+    throw UsageError("--regress on wants all records before the first pixel: no --order lazy");
+  if (method.regress && method.estimator->order < 2)
+    throw UsageError(
+        fmt::format("--regress on needs a Hessian, which estimator '{}' does not give", method.estimator->name));
   check_combination(method);
   return method;
 }

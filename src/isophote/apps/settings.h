@@ -20,7 +20,8 @@ struct RenderSettings {
   std::optional<float> a;
   std::optional<int> rays;  ///< of a record; 0: as many as the error asks; none: the method's own
   std::optional<int> max_depth, records;
-  std::optional<bool> secondary, leak_test;
+  std::optional<Secondary> secondary;
+  std::optional<bool> leak_test, regress;
   bool lazy = false;
   std::optional<float> min_pixels, max_pixels, min_view, max_view, min_radius, max_radius;
   std::optional<bool> bound_gradient;

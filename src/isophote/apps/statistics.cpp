@@ -35,8 +35,19 @@ Json parameters(const Statistics& s) {
           {"rays_in_the_mean", s.record_rays},
           {"gather", s.adaptive ? Json("auto") : Json{s.strata.polar, s.strata.azimuthal}},
           {"order", s.lazy ? "lazy" : "rounds"},
-          {"secondary", s.secondary},
-          {"leak_test", s.leak_test}};
+          {"secondary", name_of(s.seeding.chosen)},
+          {"secondary_gain", s.seeding.gain},
+          {"leak_test", s.leak_test},
+          {"regress", s.regress}};
+}
+
+/// What gather rays read where they hit, and why.
+std::string describe_secondary(const Statistics& s) {
+  std::string text(name_of(s.seeding.chosen));
+  if (s.secondary == Secondary::automatic) text += ", by a pilot";
+  if (s.seeding.gain > 0)
+    text += fmt::format("; cells make the variance of a gather times its rays {:.2g} times smaller", s.seeding.gain);
+  return text;
 }
 
 Json measured(const MeasuredError& error, const std::optional<double>& asked) {
@@ -67,8 +78,9 @@ void Statistics::print() const {
                adaptive ? fmt::format("{:.0f} rays each in the mean", record_rays)
                         : fmt::format("{} x {} rays each", strata.polar, strata.azimuthal),
                lazy ? "lazy" : "rounds", lazy ? "" : fmt::format(", {} rounds", rounds), uncovered, samples);
-    fmt::print("  threshold  a = {}, estimator {}, metric {}, secondary {}, leak test {}\n", a, estimator, metric,
-               secondary ? "on" : "off", leak_test ? "on" : "off");
+    fmt::print("  threshold  a = {}, estimator {}, metric {}, leak test {}, regression {}\n", a, estimator, metric,
+               leak_test ? "on" : "off", regress ? "on" : "off");
+    fmt::print("  secondary  {}\n", describe_secondary(*this));
     fmt::print("  bounds     {}\n", bounds);
   }
   fmt::print(

@@ -5,13 +5,16 @@
 
 #include "isophote/integrate/check_points.h"
 #include "isophote/integrate/job.h"
+#include "isophote/integrate/pilot.h"
 
 namespace isophote::app {
 
 /// What a render took and measured, for people and for scripts.
 struct Statistics {
   std::string method, estimator, metric, bounds;
-  bool lazy = false, secondary = false, adaptive = false, leak_test = false, cancelled = false, checked = false;
+  Secondary secondary = Secondary::off;  ///< as asked
+  Seeding seeding;
+  bool lazy = false, adaptive = false, leak_test = false, regress = false, cancelled = false, checked = false;
   std::optional<double> error_asked;
   std::optional<int> records_asked;
   float a = 0, aspect = 1;

@@ -135,6 +135,7 @@ const Method method_table[] = {
      &total,
      {.bounds = cached_preset, .aspect = 2},
      2,
+     Secondary::automatic,
      true,
      true,
      true},
@@ -172,8 +173,9 @@ Record Method::make_record(const Vec3& position, const Vec3& normal, const Jet<R
 double Method::error() const { return std::pow(settings.a / metric->a_factor, 1 / metric->a_power); }
 
 float Method::noise() const {
-  // A value is read from a few records, whose errors average out in part, and of the mean of their size.
-  constexpr double of_error = 1.4;
+  // A value is read from a few records, whose errors average out in part, and of the mean of their size; the more
+  // where each is fitted to many.
+  const double of_error = regress ? 2 : 1.4;
   return static_cast<float>(of_error * error());
 }
 
@@ -187,6 +189,11 @@ ErrorModel Method::error_model() const {
           .scale = metric->scale ? metric->scale(settings) : 1,
           .factor = metric->a_factor,
           .power = metric->a_power};
+}
+
+std::string_view name_of(Secondary secondary) {
+  constexpr std::string_view names[] = {"off", "cells", "records", "auto"};
+  return names[static_cast<int>(secondary)];
 }
 
 std::span<const Estimator> estimators() { return estimator_table; }

@@ -42,6 +42,14 @@ struct Metric {
   float (*scale)(const MetricSettings&) = nullptr;
 };
 
+/// What gather rays read where they hit.
+enum class Secondary : std::uint8_t {
+  off,        ///< nothing: paths go on
+  cells,      ///< means over the cells of a grid: irradiance_cells.h
+  records,    ///< the records so far, and cells where they do not cover
+  automatic,  ///< records or nothing, whichever a pilot finds to be better
+};
+
 /// A named combination. `estimator` is null for the path-traced reference, which caches nothing.
 struct Method {
   std::string name;
@@ -49,10 +57,11 @@ struct Method {
   const Estimator* estimator = nullptr;
   const Metric* metric = nullptr;
   MetricSettings settings{};
-  int order = 0;           ///< of extrapolation, at most what the estimator gives
-  bool secondary = false;  ///< gather rays read the cache where they hit
+  int order = 0;  ///< of extrapolation, at most what the estimator gives
+  Secondary secondary = Secondary::off;
   bool adaptive = false;   ///< each record gathers as many rays as its own noise needs
   bool leak_test = false;  ///< a record keeps what it saw near: see `serving_error`
+  bool regress = false;    ///< records are fitted to their neighbours at the end: regression.h
 
   bool caches() const { return estimator != nullptr; }
   /// The mean relative error that the threshold aims at; and the standard error of a record, relative to its value,
@@ -66,6 +75,8 @@ struct Method {
   /// What `predicted_error` wants to know of records made by this method.
   ErrorModel error_model() const;
 };
+
+std::string_view name_of(Secondary secondary);
 
 std::span<const Estimator> estimators();
 std::span<const Metric> metrics();

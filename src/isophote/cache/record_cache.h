@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "isophote/cache/irradiance_cells.h"
 #include "isophote/cache/octree.h"
 #include "isophote/validity/neighbour_index.h"
 
@@ -39,7 +40,7 @@ class OpenTest {
 /// Records and the index that finds them. Reading is safe from any number of threads while nobody writes.
 class RecordCache {
  public:
-  explicit RecordCache(const Box& bounds) : bounds_(bounds), octree_(bounds), neighbours_(bounds) {}
+  explicit RecordCache(const Box& bounds) : bounds_(bounds), octree_(bounds), neighbours_(bounds), cells_(bounds) {}
 
   std::span<const Record> records() const { return records_; }
   const Box& bounds() const { return bounds_; }
@@ -47,6 +48,9 @@ class RecordCache {
   std::uint32_t insert(const Record& record);
   /// The records, for `settle` to change between insertions. Radii may only shrink: the index does not follow.
   Settling settling() { return {records_, neighbours_}; }
+  /// What gathers have left where their rays hit.
+  const IrradianceCells& cells() const { return cells_; }
+  IrradianceCells& cells() { return cells_; }
   /// Builds the index anew, tight about footprints that have shrunk.
   void reindex();
 
@@ -72,6 +76,7 @@ class RecordCache {
   std::vector<Record> records_;
   Octree octree_;
   NeighbourIndex neighbours_;
+  IrradianceCells cells_;
 };
 
 /// The error of using `record` at (position, normal), as its footprint measures it: under 1 inside. Infinite where the

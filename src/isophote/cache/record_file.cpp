@@ -127,8 +127,7 @@ bool bounded(const Jet<Rgb>& jet, float radius) {
   const Obstacles& obstacles = jet.distances.obstacles;
   for (int i = 0; i < Obstacles::sectors; ++i)
     if (!within(obstacles.distance(i), 0, infinity)) return false;
-  return within(jet.distances.harmonic_mean, 0, infinity) && within(jet.standard_error, 0, most) &&
-         within(jet.gradient_error, 0, infinity);
+  return within(jet.distances.harmonic_mean, 0, infinity) && within(jet.gradient_error, 0, infinity);
 }
 
 /// The second-order term too is bounded wherever the record serves.

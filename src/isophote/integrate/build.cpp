@@ -43,6 +43,7 @@ class Builder {
 
   BuildReport run() {
     job_.progress.tell("build", 0);
+    report_.seeding.chosen = job_.method.secondary;
     int stride = 1;
     while (stride * 16 <= std::min(job_.width, job_.height) && stride < 64) stride *= 2;
     for (; stride > 1 && !report_.cancelled; stride /= 2) {
@@ -129,18 +130,25 @@ class Builder {
     return !must_survey(job_) || !cache_.records().empty() || candidates.size() >= surveyed_places;
   }
 
-  /// Surveys the picture, where the method wants that, at the first candidates, whose jets then make the first records;
-  /// where there are records already, candidates are no fair choice.
+  /// Before the first record, fills cells and surveys the picture, where the method wants that, the latter at the first
+  /// candidates, whose jets then make the first records; where there are records already, candidates are no fair
+  /// choice.
   void begin_with_survey(std::vector<Candidate>& candidates) {
-    if (!must_survey(job_) || candidates.empty()) return;
+    if (candidates.empty()) return;
+    if (!seeded_) {
+      seeded_ = true;
+      report_.seeding = seed_cells(job_, cache_, report_.rays);
+      job_.method.secondary = report_.seeding.chosen;
+    }
+    if (!must_survey(job_)) return;
     if (!cache_.records().empty()) {
-      job_.pilot = survey(job_, random_places(job_, report_.rays), report_.rays).pilot;
+      job_.pilot = survey(job_, cache_, random_places(job_, report_.rays), report_.rays).pilot;
       return;
     }
     std::vector<Place> places;
     for (const Candidate& c : candidates)
       if (places.size() < surveyed_places) places.push_back(c.place);
-    const Survey first = survey(job_, places, report_.rays);
+    const Survey first = survey(job_, cache_, places, report_.rays);
     job_.pilot = first.pilot;
     const LeakTest open{job_.world, report_.rays};
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -217,10 +225,12 @@ class Builder {
 
   std::vector<std::uint32_t> add_records(const std::vector<Place>& places) {
     std::vector<Record> made(places.size());
+    std::vector<IrradianceCells> left(places.size());
     report_.rays += for_each(job_.parallel, places.size(), 1, [&](std::size_t i, RayCounts& counts) {
       thread_local HemisphereGather scratch;
-      made[i] = make_record(job_, cache_, places[i], scratch, counts);
+      made[i] = make_record(job_, cache_, places[i], scratch, left[i], counts);
     });
+    take_in(job_.world, cache_.cells(), left, report_.rays);
     std::vector<std::uint32_t> fresh;
     fresh.reserve(made.size());
     for (const Record& record : made) fresh.push_back(cache_.insert(record));
@@ -232,6 +242,7 @@ class Builder {
   BuildReport report_;
   Job job_;
   RecordCache& cache_;
+  bool seeded_ = false;          // the cells
   double done_ = 0, share_ = 0;  // of the build: before the present level, and of it
 };
 

@@ -2,6 +2,7 @@
 
 #include "isophote/integrate/gather.h"
 #include "isophote/integrate/job.h"
+#include "isophote/integrate/pilot.h"
 
 namespace isophote {
 
@@ -11,6 +12,7 @@ struct BuildReport {
   int passes = 0;  ///< over all pixels, each through another sample of them
   RayCounts rays;
   Pilot pilot{};              ///< of the survey, where the method wanted one
+  Seeding seeding{};          ///< what gathers read where they hit
   std::vector<Place> places;  ///< of the records added, in their order
   bool cancelled = false;
 };

@@ -25,13 +25,15 @@ struct CheckPoint {
 /// Rays for a reference whose own error is about half of what a record here would have, and more where records read
 /// cached light, which is less noisy than paths.
 int reference_rays(const Job& job, const RecordCache& cache, const Place& place) {
-  return job.method.adaptive ? 4 * strata_near(job, cache, place).size() : rays_per_point;
+  if (!job.method.adaptive) return rays_per_point;
+  const int finer = job.method.regress ? 10 : 4;  // records that have been fitted are surer than their rays
+  return finer * strata_near(job, cache, place).size();
 }
 
 /// Irradiance (luminance) at a place by a path-traced gather.
 double reference(const Job& job, const Place& place, int rays, std::uint64_t key, HemisphereGather& gather,
                  RayCounts& counts) {
-  gather_hemisphere(job.world, nullptr, place, Strata::about(rays), key, gather, counts);
+  gather_hemisphere(job.world, {}, place, Strata::about(rays), key, gather, counts);
   Rgbd sum;
   for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
   return luminance(sum) * std::numbers::pi / gather.strata.size();

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "isophote/cache/record_cache.h"
 #include "isophote/derivatives/gather.h"
-#include "isophote/trace/path.h"
+#include "isophote/integrate/far_light.h"
 
 namespace isophote {
 
@@ -20,10 +19,10 @@ struct Place {
 /// What it asks the cache, without a normal map: the hemisphere is about the interpolated normal.
 inline Query query_at(const Place& place) { return {place.position, place.normal, place.normal}; }
 
-/// One ray into each stratum of the hemisphere above `place`. Radiance is a path's, or, where `cache` is not null and
-/// covers the hit, direct light plus the cached irradiance; emission of directly sampled emitters at the first hit is
-/// left out. `key` seeds the record.
-void gather_hemisphere(const World& world, const RecordCache* cache, const Place& place, Strata strata,
-                       std::uint64_t key, HemisphereGather& gather, RayCounts& counts);
+/// One ray into each stratum of the hemisphere above `place`. Radiance is a path's, or, where `from` is not none,
+/// direct light plus what that knows; emission of directly sampled emitters at the first hit is left out. `key` seeds
+/// the record.
+void gather_hemisphere(const World& world, const FarLight& from, const Place& place, Strata strata, std::uint64_t key,
+                       HemisphereGather& gather, RayCounts& counts);
 
 }  // namespace isophote

@@ -29,12 +29,16 @@ View view_of(const Job& job, const Place& place) {
           job.pilot};
 }
 
-Jet<Rgb> jet_at(const Job& job, const RecordCache* so_far, const Place& place, Strata strata, HemisphereGather& scratch,
-                RayCounts& counts) {
-  ISOPHOTE_CHECK(job.memo && (job.method.secondary || job.method.adaptive), ==, false);
+Jet<Rgb> jet_at(const Job& job, const RecordCache& cache, const Place& place, Strata strata, HemisphereGather& scratch,
+                IrradianceCells& left, RayCounts& counts) {
+  const Secondary secondary = job.method.secondary;
+  ISOPHOTE_CHECK(job.memo && (secondary != Secondary::off || job.method.adaptive), ==, false);
+  FarLight from{job.light};
+  if (secondary == Secondary::cells) from = {nullptr, &cache.cells(), &left};
+  if (secondary == Secondary::records) from = {&cache, &cache.cells(), &left};
   const auto gather = [&]() -> const HemisphereGather& {
     const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), place.key);
-    gather_hemisphere(job.world, job.method.secondary ? so_far : job.light, place, strata, key, scratch, counts);
+    gather_hemisphere(job.world, from, place, strata, key, scratch, counts);
     return scratch;
   };
   const Estimator& estimator = *job.method.estimator;
@@ -42,9 +46,9 @@ Jet<Rgb> jet_at(const Job& job, const RecordCache* so_far, const Place& place, S
 }
 
 Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
-                   RayCounts& counts) {
+                   IrradianceCells& left, RayCounts& counts) {
   const Strata strata = job.method.adaptive ? strata_near(job, cache, place) : job.strata;
-  const Jet<Rgb> jet = jet_at(job, &cache, place, strata, scratch, counts);
+  const Jet<Rgb> jet = jet_at(job, cache, place, strata, scratch, left, counts);
   return job.method.make_record(place.position, place.normal, jet, view_of(job, place));
 }
 

@@ -19,13 +19,13 @@ std::optional<SeenPlace> random_place(const Job& job, Sampler& stream, std::uint
 /// How the job sees a record at a place.
 View view_of(const Job& job, const Place& place);
 
-/// What the job's estimator says of a place, by a gather that reads `so_far`, where the method caches what gathers see
-/// and there is something yet. Its random numbers depend on the place's key alone, not on the records before it.
-Jet<Rgb> jet_at(const Job& job, const RecordCache* so_far, const Place& place, Strata strata, HemisphereGather& scratch,
-                RayCounts& counts);
+/// What the job's estimator says of a place, by a gather that reads of the cache what the method says, and leaves
+/// samples for its cells in `left`. Its random numbers depend on the place's key alone, not on the records before it.
+Jet<Rgb> jet_at(const Job& job, const RecordCache& cache, const Place& place, Strata strata, HemisphereGather& scratch,
+                IrradianceCells& left, RayCounts& counts);
 
 /// The record at a place.
 Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
-                   RayCounts& counts);
+                   IrradianceCells& left, RayCounts& counts);
 
 }  // namespace isophote

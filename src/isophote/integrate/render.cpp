@@ -40,7 +40,7 @@ Seen shade_sample(const Job& job, const RecordCache* cache, const Ray& ray, cons
              !cache->covers(query_at(point), LeakTest{job.world, counts})) {
     return {{}, false};  // nothing is known here, not even the direct light: alpha 0
   } else {
-    light = shade(job.world, *cache, point, wo, seen.depth, stream, counts);
+    light = shade(job.world, {cache}, point, wo, seen.path_length, seen.depth, stream, counts);
   }
   out.direct += seen.throughput * light.direct;
   out.indirect = seen.throughput * light.indirect;
@@ -156,8 +156,10 @@ LazyReport render_lazily(const Job& asked, RecordCache& cache, Film& film) {
   LazyReport report;
   Job job = asked;
   report.pilot = job.pilot;
+  report.seeding = seed_cells(job, cache, report.build_rays);
+  job.method.secondary = report.seeding.chosen;
   if (must_survey(job))
-    report.pilot = job.pilot = survey(job, random_places(job, report.build_rays), report.build_rays).pilot;
+    report.pilot = job.pilot = survey(job, cache, random_places(job, report.build_rays), report.build_rays).pilot;
   HemisphereGather scratch;
   const FlushDenormals flush;
   for (int y = 0; y < job.height; ++y) {
@@ -173,7 +175,9 @@ LazyReport render_lazily(const Job& asked, RecordCache& cache, Film& film) {
         if (place && !report.final.cancelled && !cache.covers(query_at(*place), open)) {
           const Clock before = Clock::now();
           const auto id = static_cast<std::uint32_t>(cache.records().size());
-          cache.insert(make_record(job, cache, *place, scratch, report.build_rays));
+          IrradianceCells left;
+          cache.insert(make_record(job, cache, *place, scratch, left, report.build_rays));
+          take_in(job.world, cache.cells(), {&left, 1}, report.build_rays);
           job.method.settle(cache.settling(), {&id, 1});
           report.build += Clock::now() - before;
         }

@@ -2,6 +2,7 @@
 
 #include "isophote/integrate/film.h"
 #include "isophote/integrate/job.h"
+#include "isophote/integrate/pilot.h"
 
 namespace isophote {
 
@@ -38,6 +39,7 @@ struct LazyReport {
   RenderReport final;
   RayCounts build_rays;
   Pilot pilot{};
+  Seeding seeding{};
   Clock build;
 };
 LazyReport render_lazily(const Job& job, RecordCache& cache, Film& film);

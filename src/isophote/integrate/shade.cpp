@@ -23,15 +23,17 @@ struct Left {
   bool whole = false;
 };
 
-Left shade_without_glossy(const World& world, const RecordCache& cache, const SurfacePoint& point, const Vec3& wo,
-                          int depth, Sampler& sampler, RayCounts& counts) {
+Left shade_without_glossy(const World& world, const FarLight& from, const SurfacePoint& point, const Vec3& wo,
+                          float distance, int depth, Sampler& sampler, RayCounts& counts) {
   const auto path = [&](bool covered) -> Left {
     const Scattered s = scatter(world, point, wo, depth, sampler, counts);
     return {{s.direct, s.indirect, s.irradiance, covered}, true};
   };
   if (depth > 0 && world.max_depth < std::numeric_limits<int>::max()) return path(true);
   if (!point.bsdf.has_diffuse()) return {};
-  const std::optional<Rgb> irradiance = cache.interpolate(query_at(point), LeakTest{world, counts});
+  std::optional<Rgb> irradiance;
+  if (from.records) irradiance = from.records->interpolate(query_at(point), LeakTest{world, counts});
+  if (!irradiance && from.cells) irradiance = cell_irradiance(world, from, point, distance, depth, sampler, counts);
   if (!irradiance) return path(false);
   return {{direct_diffuse(world, point, wo, sampler, counts), diffuse_albedo(point.bsdf, wo) * *irradiance / pi,
            *irradiance, true}};
@@ -39,9 +41,9 @@ Left shade_without_glossy(const World& world, const RecordCache& cache, const Su
 
 }  // namespace
 
-Shaded shade(const World& world, const RecordCache& cache, const SurfacePoint& point, const Vec3& wo, int depth,
-             Sampler& sampler, RayCounts& counts) {
-  Left left = shade_without_glossy(world, cache, point, wo, depth, sampler, counts);
+Shaded shade(const World& world, const FarLight& from, const SurfacePoint& point, const Vec3& wo, float distance,
+             int depth, Sampler& sampler, RayCounts& counts) {
+  Left left = shade_without_glossy(world, from, point, wo, distance, depth, sampler, counts);
   Shaded result = left.light;
   const SurfacePoint* at = &point;
   Vec3 towards = wo;
@@ -60,7 +62,7 @@ Shaded shade(const World& world, const RecordCache& cache, const SurfacePoint& p
     if (!ray.next.point || depth >= world.max_depth || is_black(throughput)) break;
     at = &*ray.next.point;
     towards = -ray.next.direction;
-    left = shade_without_glossy(world, cache, *at, towards, depth, sampler, counts);
+    left = shade_without_glossy(world, from, *at, towards, ray.next.path_length, depth, sampler, counts);
     result.indirect += throughput * (left.light.direct + left.light.indirect);
     result.covered = result.covered && left.light.covered;
   }

@@ -29,7 +29,7 @@ Solved build_with_records(Job& asked, std::size_t wanted) {
   // Tries differ in where records lie and how far they reach, not in what a place sees, unless that is cached light.
   std::optional<JetMemo> memo;
   Job job = asked;
-  if (!job.memo && !job.method.secondary && !job.method.adaptive)
+  if (!job.memo && job.method.secondary == Secondary::off && !job.method.adaptive)
     job.memo = &memo.emplace(std::vector{job.method.estimator});
   std::optional<Try> previous;
   std::optional<Try> above, below;  // the nearest with too many records and with too few

@@ -63,7 +63,7 @@ bool open_between(const World& world, const Spot& a, const Spot& b, RayCounts& c
   const float lift = distance * (off_ground + over_bulge * length(a.normal - b.normal)) +
                      rounding * std::max(largest(a.position), largest(b.position));
   // It starts and ends a little short of what touches the surface just there.
-  constexpr float short_of = 0x1p-14f;
+  constexpr float short_of = 0x1p-20f;
   const Ray ray{a.position + normals * (lift / size), way / distance, short_of * distance, (1 - short_of) * distance};
   ++counts.verification;
   return !world.rays.occluded(ray, 0);

@@ -1,0 +1,169 @@
+#include "isophote/cache/regression.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "isophote/cache/parabola_fit.h"
+#include "isophote/validity/tangent_axes.h"
+
+namespace isophote {
+namespace {
+
+/// Radii that a neighbour may be away, of the smaller of the two.
+constexpr float neighbour_radii = 4;
+constexpr std::size_t fewest_neighbours = 3;
+
+double square(double x) { return x * x; }
+
+/// The mean of the absolute eigenvalues of a record's Hessian, of luminance.
+double curvature(const Record& record) {
+  const TangentAxes axes(Sym3d(record.jet.hessian), Vec3d(record.normal));
+  return (std::abs(axes.greater) + std::abs(axes.lesser)) / 2;
+}
+
+/// What many records of a neighbourhood have in common.
+struct Pooled {
+  double spread = 0;  ///< variance of one ray's share, luminance squared
+  double value = 0;   ///< luminance
+};
+
+/// Variance of a record's value.
+double noise(const Pooled& pooled, const Record& record) {
+  return pooled.spread / std::max(1.0, static_cast<double>(record.jet.rays));
+}
+
+/// The parabola about one record, in units of its radius. Each neighbour counts by its own noise, pooled, for single
+/// variances go with the values that they belong to and would draw the fit down; and by what its curvature leaves
+/// unsaid at its distance.
+class Parabola {
+ public:
+  Parabola(const Record& record, const Pooled& pooled, double distrust)
+      : frame_(Vec3d(record.normal)),
+        normal_(record.normal),
+        radius_(record.footprint.radius),
+        curvature_(curvature(record)),
+        pooled_(pooled),
+        distrust_(distrust),
+        least_(square(1e-4 * pooled.value)) {
+    // Of the bends themselves nothing is known but how large they may be.
+    const double prior = 1 / (square(2 * curvature_ * radius_ * radius_) + least_);
+    for (int i = 3; i < ParabolaFit::unknowns; ++i) {
+      ParabolaFit::Row row{};
+      row[i] = 1;
+      fit_.add(row, {}, prior);
+    }
+  }
+
+  void add(const Record& other, const Vec3& offset, float distance) {
+    const Jet<Rgb>& jet = other.jet;
+    const Vec3d q(offset);
+    const double x = dot(q, frame_.u) / radius_, y = dot(q, frame_.v) / radius_;
+    const double bend = (curvature_ + curvature(other)) / 2 * distrust_ * std::min(1.0, distance / (3 * radius_));
+    const Rgb turned = jet.value + jet.rotational.dot(cross(other.normal, normal_));
+    fit_.add({1, x, y, x * x / 2, x * y, y * y / 2}, Rgbd(turned),
+             1 / (least_ + noise(pooled_, other) + square(bend * distance * distance / 2)));
+    const double weight = 1 / (least_ + square(radius_) * (square(jet.gradient_error) + square(bend * distance)));
+    const auto along = [&](const Vec3d& axis) { return Rgbd(jet.translational.dot(Vec3(axis))) * radius_; };
+    fit_.add({0, 1, 0, x, y, 0}, along(frame_.u), weight);
+    fit_.add({0, 0, 1, 0, x, y}, along(frame_.v), weight);
+  }
+
+  /// False where the records do not decide, or say something beyond numbers.
+  bool solve() { return fit_.solve() && is_finite(Rgb(fit_[0])) && is_finite(Rgb(fit_[1])) && is_finite(Rgb(fit_[2])); }
+  const Rgbd& value() const { return fit_[0]; }
+  double standard_error() const { return std::sqrt(fit_.variance()); }
+  Gradient<Rgb> gradient() const {
+    const Rgbd u = fit_[1] / radius_, v = fit_[2] / radius_;
+    const Framed& f = frame_;
+    return {Rgb(u * f.u.x + v * f.v.x), Rgb(u * f.u.y + v * f.v.y), Rgb(u * f.u.z + v * f.v.z)};
+  }
+
+ private:
+  Framed frame_;
+  Vec3 normal_;
+  double radius_, curvature_;
+  Pooled pooled_;
+  double distrust_, least_;
+  ParabolaFit fit_;
+};
+
+template <class Neighbours>
+Pooled pooled(const Neighbours& neighbours) {
+  Pooled sum;
+  for (const auto& n : neighbours) {
+    sum.spread += square(n.record->jet.standard_error) * n.record->jet.rays;
+    sum.value += luminance(n.record->jet.value);
+  }
+  const auto count = static_cast<double>(neighbours.size());
+  return {sum.spread / count, sum.value / count};
+}
+
+}  // namespace
+
+Regression::Regression(const RecordCache& cache) : records_(cache.records()), reach_(cache.bounds()) {
+  for (std::uint32_t id = 0; id < records_.size(); ++id)
+    reach_.insert(id, records_[id].position, neighbour_radii * records_[id].footprint.radius);
+}
+
+std::vector<Regression::Neighbour> Regression::neighbours(const Record& record, OpenTest open) const {
+  constexpr float alike = 0.95f, off_plane = 0.15f;
+  const auto free = [&](const Record& from, const Record& to) {
+    return !from.jet.distances.obstacles.before(to.position - from.position, from.normal) ||
+           open(from, {to.position, to.normal, to.normal});
+  };
+  std::vector<Neighbour> found;
+  reach_.any(record.position, [&](std::uint32_t id) {
+    const Record& other = records_[id];
+    const Vec3 q = other.position - record.position;
+    const float distance = length(q);
+    const float reach = neighbour_radii * std::min(record.footprint.radius, other.footprint.radius);
+    if (distance > reach || dot(other.normal, record.normal) < alike) return false;
+    if (std::max(std::abs(dot(q, record.normal)), std::abs(dot(q, other.normal))) > off_plane * distance) return false;
+    if (free(record, other) && free(other, record)) found.push_back({&other, q, distance});
+    return false;
+  });
+  return found;
+}
+
+Regression::Risks Regression::risks(std::uint32_t id, OpenTest open) const {
+  const Record& record = records_[id];
+  const std::vector<Neighbour> around = neighbours(record, open);
+  Risks risks{};
+  if (around.size() < fewest_neighbours) return risks;
+  const Pooled all = pooled(around);
+  if (!(all.value > 0)) return risks;
+  for (std::size_t i = 0; i < distrusts.size(); ++i) {
+    Parabola parabola(record, all, distrusts[i]);
+    for (const Neighbour& n : around) parabola.add(*n.record, n.offset, n.distance);
+    if (!parabola.solve()) continue;
+    const double before = noise(all, record);
+    const double moved = square(luminance(parabola.value()) - luminance(Rgbd(record.jet.value)));
+    const double own = square(parabola.standard_error()) / (square(1e-4 * all.value) + before);
+    risks[i] = (moved - before + 2 * own * before) / square(all.value);
+  }
+  return risks;
+}
+
+Record Regression::fitted(std::uint32_t id, double distrust, OpenTest open) const {
+  const Record& record = records_[id];
+  const std::vector<Neighbour> around = neighbours(record, open);
+  if (around.size() < fewest_neighbours) return record;
+  const Pooled all = pooled(around);
+  if (!(all.value > 0)) return record;
+  Parabola parabola(record, all, distrust);
+  for (const Neighbour& n : around) parabola.add(*n.record, n.offset, n.distance);
+  if (!parabola.solve()) return record;
+
+  Record result = record;
+  const double error = std::sqrt(noise(all, record));
+  for (int c = 0; c < 3; ++c) {
+    const double before = record.jet.value[c], room = 3 * error * std::max(1.0, before / all.value);
+    result.jet.value[c] =
+        static_cast<float>(std::max(0.0, std::clamp(parabola.value()[c], before - room, before + room)));
+  }
+  result.jet.translational = parabola.gradient();
+  result.jet.standard_error = static_cast<float>(std::min(error, parabola.standard_error()));
+  return result;
+}
+
+}  // namespace isophote

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "isophote/cache/irradiance_cells.h"
+#include "isophote/cache/record_cache.h"
+#include "isophote/trace/path.h"
+
+namespace isophote {
+
+/// Where the diffuse lobes of points that rays meet get their indirect irradiance from: from records where they cover
+/// the point, else from cells, else from a path. Refers to what its maker keeps.
+struct FarLight {
+  const RecordCache* records = nullptr;
+  const IrradianceCells* cells = nullptr;  ///< as earlier rounds left them
+  IrradianceCells* left = nullptr;         ///< what this reader leaves for later ones; not null where `cells` is not
+
+  bool none() const { return !records && !cells; }
+};
+
+/// Irradiance at a point, about its interpolated normal, by the samples in its cell: their mean where there are enough,
+/// else one more, which goes on by the same rule at what it hits. Its expectation is the irradiance, averaged over the
+/// cell. `distance` is that of the ray that met the point, `depth` counts the scattering events before it.
+Rgb cell_irradiance(const World& world, const FarLight& from, const SurfacePoint& point, float distance, int depth,
+                    Sampler& sampler, RayCounts& counts);
+
+/// Adds to `cells` what several readers of them left, in their order.
+void take_in(const World& world, IrradianceCells& cells, std::span<const IrradianceCells> left, RayCounts& counts);
+
+}  // namespace isophote
