@@ -40,7 +40,7 @@ int run(const char* path, int rays, int repeats) {
   for (int i = 0; i < repeats; ++i) {
     gathering.push_back(cpu_seconds([&] {
       for (std::size_t p = 0; p < places.size(); ++p)
-        gather_hemisphere(job.world, nullptr, places[p], Strata::about(rays), places[p].key, gathers[p], counts);
+        gather_hemisphere(job.world, {}, places[p], Strata::about(rays), places[p].key, gathers[p], counts);
     }));
     for (std::size_t e = 0; e < estimators().size(); ++e) {
       times[e].push_back(cpu_seconds([&] {

@@ -47,19 +47,46 @@ def render(view, *flags, output=None):
     return result
 
 
-def error(view, picture, layer="irradiance"):
+def error(view, picture, layer="irradiance", other=None):
+    """Errors of a picture; those that it has in common with `other`, of another seed, if that is given."""
     first, second = view.references()
     command = [str(PROGRAM), "compare", str(picture), str(first), "--second", str(second), "--layer", layer, "--json"]
+    if other:
+        command += ["--other", str(other)]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 
-def measured(view, *flags, layers=("irradiance",)):
-    """One render and its errors, by layer."""
+def measured(view, *flags):
+    """One render and its errors."""
     picture = BUILD / f"picture-{os.getpid()}.exr"
     stats = render(view, *flags, "--no-check", output=picture)
-    errors = {layer: error(view, picture, layer) for layer in layers}
+    errors = error(view, picture)
     picture.unlink()
     return stats, errors
+
+
+def root_mean_square(values):
+    return (sum(v * v for v in values) / len(values)) ** 0.5
+
+
+class Measured:
+    """Renders of several seeds: CPU seconds and records in the mean, errors by root mean square, and their systematic part, which pairs of seeds
+    have in common (none of a single seed)."""
+
+    def __init__(self, view, seeds, *flags):
+        pictures = [BUILD / f"picture-{os.getpid()}-{seed}.exr" for seed in seeds]
+        stats = [render(view, *flags, "--seed", seed, "--no-check", output=picture) for seed, picture in zip(seeds, pictures)]
+        errors = [error(view, picture) for picture in pictures]
+        shared = [error(view, a, other=b) for a, b in zip(pictures, pictures[1:] + pictures[:1])] if len(pictures) > 1 else []
+        for picture in pictures:
+            picture.unlink()
+        self.stats = stats[0]
+        self.cpu = sum(map(cost, stats)) / len(stats)
+        self.records = round(sum(s["records"] for s in stats) / len(stats))
+        self.bias = sum(e["bias"] for e in errors) / len(errors)
+        self.rmse, self.block = (root_mean_square([e[key] for e in errors]) for key in ("relative_rmse", "block_error"))
+        self.systematic_rmse, self.systematic_block = (root_mean_square([e[key] for e in shared]) if shared else None
+                                                       for key in ("relative_rmse", "block_error"))
 
 
 def cost(stats):

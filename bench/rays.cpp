@@ -125,9 +125,11 @@ int run(const char* path, int repeats) {
     Film film(job.width, job.height);
     return render(job, from, film).rays.total();
   };
-  const auto gather_rays = [&](const RecordCache* from) {
+  const auto gather_rays = [&](const RecordCache* records, bool cells) {
     RayCounts counts;
     HemisphereGather scratch;
+    IrradianceCells left;
+    const FarLight from{records, cells ? &cache.cells() : nullptr, &left};
     for (std::size_t i = 0; i < cache.records().size(); i += cache.records().size() / 64 + 1) {
       const Record& r = cache.records()[i];
       gather_hemisphere(job.world, from, {r.position, r.normal, r.normal, 0, offset}, job.strata, i, scratch, counts);
@@ -136,8 +138,9 @@ int run(const char* path, int repeats) {
   };
   std::vector<Series> all{{"bare", [&] { return bare_loop(job, bare, light, 3); }, {}},
                           {"path", [&] { return film_rays(nullptr); }, {}},
-                          {"gather", [&] { return gather_rays(&cache); }, {}},
-                          {"gather_paths", [&] { return gather_rays(nullptr); }, {}},
+                          {"gather_records", [&] { return gather_rays(&cache, true); }, {}},
+                          {"gather_cells", [&] { return gather_rays(nullptr, true); }, {}},
+                          {"gather_paths", [&] { return gather_rays(nullptr, false); }, {}},
                           {"final", [&] { return film_rays(&cache); }, {}}};
   const FlushDenormals flush;
   for (int i = 0; i < repeats; ++i)

@@ -17,20 +17,18 @@ def median(values):
 
 
 def records():
-    """Error against records and against rays per record, secondary caching on and off."""
+    """Error against records and against rays per record, by what gathers read."""
     by_records, by_rays, series = [], [], {}
-    for secondary in ("on", "off"):
+    for secondary in ("records", "cells", "off"):
         curve = []
         for number in (500, 1000, 2000, 4000, 8000):
-            stats, errors = measured(CORNELL, "--secondary", secondary, "--records", number, "--spp", 16)
-            e = errors["irradiance"]
+            stats, e = measured(CORNELL, "--secondary", secondary, "--records", number, "--spp", 16)
             by_records.append([secondary, stats["records"], f"{stats['parameters']['a']:.3f}", percent(e["relative_rmse"]),
                                percent(e["block_error"]), f"{100 * e['bias']:+.2f}"])
             curve.append((stats["records"], e["relative_rmse"]))
         series[f"secondary {secondary}"] = curve
         for rays in (200, 400, 800, 1600, 3200):
-            stats, errors = measured(CORNELL, "--secondary", secondary, "--a", 0.2, "--rays", rays, "--spp", 16)
-            e = errors["irradiance"]
+            stats, e = measured(CORNELL, "--secondary", secondary, "--a", 0.2, "--rays", rays, "--spp", 16)
             by_rays.append([secondary, rays, stats["records"], f"{cost(stats):.1f}", percent(e["relative_rmse"]),
                             percent(e["block_error"]), f"{100 * e['bias']:+.2f}"])
     log_log(ROOT / "docs" / "figures" / "error-records.svg", "cornell-box: RMSE over records", "records", "relative RMSE", series)
@@ -72,8 +70,7 @@ def leaks():
     for test in ("off", "on"):
         flags = (*MODEST, "--leak-test", test, "--no-check")
         render(bright, *flags, "--save-cache", records)
-        stats, errors = measured(dark, *flags, "--load-cache", records)
-        e = errors["irradiance"]
+        stats, e = measured(dark, *flags, "--load-cache", records)
         biases.append([test, stats["records"], f"{100 * e['bias']:+.1f}", percent(e["relative_rmse"]), percent(e["block_error"])])
     records.unlink()
     return (f"## Leaks\n\nCPU seconds of build and final pass with the leak test over those without, medians and ranges of {REPEATS} pairs, "

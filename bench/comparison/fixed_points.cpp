@@ -20,7 +20,7 @@ const std::uint64_t stream_of_points = hash(static_cast<std::uint64_t>(Purpose::
 
 double irradiance(const Job& job, const Place& place, int rays, std::uint64_t key, RayCounts& counts) {
   thread_local HemisphereGather gather;
-  gather_hemisphere(job.world, job.light, place, Strata::about(rays), key, gather, counts);
+  gather_hemisphere(job.world, {job.light}, place, Strata::about(rays), key, gather, counts);
   Rgbd sum;
   for (const GatherSample& s : gather.samples) sum += Rgbd(s.radiance);
   return luminance(sum) * std::numbers::pi / gather.strata.size();
