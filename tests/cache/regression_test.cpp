@@ -209,6 +209,7 @@ TEST(Regression, LeavesRecordsAloneThatItCannotFit) {
     r.jet.translational.x = Rgb(1e30f), r.jet.hessian.xx = 1e30f;
     r.jet.standard_error = i % 2 ? 1e30f : 0, r.jet.gradient_error = i % 3 ? infinity : 0;
     r.jet.rays = i % 5 ? 400 : 0;
+    if (i > 25) r.footprint = Footprint::disk(1e-10f, 1), r.position.x = 1e-11f * static_cast<float>(i);
     wild.insert(r);
   }
   const Regression regression(wild);

@@ -43,7 +43,9 @@ class BadUsage(ProgramTest):
         self.refused_render(("--secondary", "records", "--max-depth", "3"), "--max-depth")
         self.refused_render(("--records", "100", "--order", "lazy"), "--records")
         self.refused_render(("--regress", "on", "--order", "lazy"), "--regress")
-        self.refused_render(("--regress", "on", "--method", "ward1992"), "--regress", "Hessian")
+        self.refused_render(("--regress", "on", "--method", "cached", "--estimator", "ward-heckbert", "--metric", "split-sphere"), "--regress", "Hessian")
+        self.refused_render(("--regress", "on", "--leak-test", "off"), "--regress", "--leak-test")
+        self.refused_render(("--regress", "on", "--method", "swept"), "--regress", "--leak-test")
         self.refused_render(("--records", "100", "--load-cache", "c"), "--records")
         for flags in (("--error", "0.1", "--a", "0.3"), ("--a", "0.3", "--records", "9"), ("--records", "9", "--error", "0.1")):
             self.refused(2, ("render", BOX, *flags, "-o", "out.exr"), flags[0], flags[2], "give one")

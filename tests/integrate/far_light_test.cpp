@@ -4,6 +4,7 @@
 
 #include "integrate/stage.h"
 #include "isophote/integrate/pilot.h"
+#include "support/scenes.h"
 
 namespace isophote::test {
 namespace {
@@ -42,6 +43,26 @@ TEST(SlowFarLight, KeepsTheMeanLevelOfAllScenes) {
   for (const char* scene : {"cornell-box.glb", "contact-shadow.glb", "gallery.glb", "sphere.glb", "corner.glb",
                             "plate.toml", "back-wall.glb", "thin-wall.glb", "atrium.glb"})
     expect_mean_level(scene, Secondary::automatic, 96, 72, 1024);
+}
+
+/// Walls with both lobes, whose chains would branch without end: they do not, and keep the level of paths.
+TEST(FarLight, ChainsBetweenGlossyWallsEnd) {
+  Scene scene = scenes::cornell_box();
+  for (Material& material : scene.materials) material.metallic = 0.5f, material.roughness = 0.5f;
+  const Stage stage(std::move(scene));
+  const double truth = mean_luminance(render_all(stage.job(method("path"), 48, 48, 512)).layer("irradiance"));
+  double mean = 0;
+  constexpr int seeds = 4;
+  for (int seed = 0; seed < seeds; ++seed) {
+    Method how = method("cached", 0.05);
+    how.secondary = Secondary::cells;
+    Job job = stage.job(how, 48, 48, 4);
+    job.seed = static_cast<std::uint64_t>(seed);
+    job.strata = Strata::about(400);
+    mean += mean_luminance(render_all(job).layer("irradiance")) / seeds;
+  }
+  std::printf("%+.2f %% of paths\n", 100 * (mean / truth - 1));
+  EXPECT_NEAR(mean / truth, 1, 0.02);
 }
 
 TEST(Seeding, FindsCellsBetterThanPathsIndoors) {
@@ -92,6 +113,7 @@ TEST(TakeIn, KeepsWhatAWallPartsOutOfACell) {
   EXPECT_EQ(cells.cells()[0].count, 2u);
   EXPECT_EQ(cells.cells()[0].sum, Rgb(40));
   EXPECT_EQ(cells.cells()[0].position, bright.position);
+  EXPECT_TRUE(cells.cells()[0].cut);
 }
 
 }  // namespace

@@ -41,8 +41,10 @@ RgbImage irradiance_after(const Stage& stage, const std::string& first, const st
   RecordCache cache = empty_cache(job);
   build_in_rounds(before, cache);
   build_in_rounds(job, cache);
+  RayCounts counts;
+  const RecordCache shown = how.regress && how.leak_test ? regressed(job, cache, counts) : cache;
   Film film(width, height);
-  render(job, &cache, film);
+  render(job, &shown, film);
   return film.irradiance();
 }
 

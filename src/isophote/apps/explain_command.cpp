@@ -74,12 +74,13 @@ int explain(const ExplainRequest& request) {
     return 1;
   }
   RayCounts counts;
-  if (std::optional<RecordCache> fitted = session.fitted(cache, counts)) cache = std::move(*fitted);
-  const Explanation explanation = isophote::explain(job, cache, at.x, at.y);
-  const ExplainedPixel pixel{job, cache, at.x, at.y};
+  const std::optional<RecordCache> fitted = session.fitted(cache, counts);
+  const RecordCache& shown = fitted ? *fitted : cache;
+  const Explanation explanation = isophote::explain(job, shown, at.x, at.y, &cache);
+  const ExplainedPixel pixel{job, shown, at.x, at.y};
   request.json ? print_explanation_json(pixel, explanation) : print_explanation(pixel, explanation);
   if (request.picture.empty()) return 0;
-  const auto [picture, window] = explanation_picture(job, cache, explanation, at.x, at.y);
+  const auto [picture, window] = explanation_picture(job, shown, explanation, at.x, at.y);
   write_png(request.picture, picture, 0);
   if (!request.json) fmt::print("\n{}: {:.3g} times enlarged\n", request.picture, window.zoom);
   return 0;

@@ -86,7 +86,7 @@ class Rendering {
     statistics_.record_rays /= std::max(1.0, static_cast<double>(cache.records().size()));
     if (!request_.save_cache.empty()) session_.save(cache, request_.save_cache);
     show(shown(cache));
-    if (request_.check && !measured_ && !statistics_.cancelled) check(shown(cache));
+    if (request_.check && !measured_ && !statistics_.cancelled) check(cache);
   }
 
   /// Pictures of what the cache is like.
@@ -134,7 +134,7 @@ class Rendering {
   void refine(RecordCache& cache) {
     int& turn = statistics_.refinements;
     for (; turn < request_.refine && !statistics_.cancelled; ++turn) {
-      check(shown(cache));
+      check(cache);
       const double asked = settings_.error.value_or(default_error);
       if (!statistics_.error.exceeds(asked)) return;
       const Clock begin = Clock::now();
@@ -150,7 +150,7 @@ class Rendering {
     fitted_.reset();
     job().pilot = report.pilot;
     job().method.secondary = report.seeding.chosen;
-    statistics_.seeding = report.seeding;
+    if (statistics_.seeding.gain == 0) statistics_.seeding = report.seeding;
     places_ = std::move(report.places);
     statistics_.rounds += report.rounds;
     statistics_.passes += report.passes;
@@ -161,8 +161,8 @@ class Rendering {
 
   /// The records as pictures show them: those of the cache, or what is fitted to them.
   const RecordCache& shown(const RecordCache& cache) {
-    if (!job().method.regress || statistics_.cancelled) return cache;
     if (!fitted_) {
+      if (!job().method.regress || statistics_.cancelled) return cache;
       const Clock begin = Clock::now();
       fitted_ = session_.fitted(cache, statistics_.rays);
       statistics_.time.build += Clock::now() - begin;
@@ -171,10 +171,11 @@ class Rendering {
   }
 
   void check(const RecordCache& cache) {
+    const RecordCache& fitted = shown(cache);
     display_.show("check", 0);
     const Clock begin = Clock::now();
     measured_ = statistics_.checked = true;
-    statistics_.error = check_points(job(), cache, build_rays_ / 5, statistics_.refinements);
+    statistics_.error = check_points(job(), fitted, build_rays_ / 5, statistics_.refinements, &cache);
     statistics_.rays += statistics_.error.rays;
     statistics_.time.check += Clock::now() - begin;
   }

@@ -46,8 +46,9 @@ std::string record_settings(const Job& job) {
       m.estimator->name, m.metric->name, m.settings.a, b.min_pixels, b.max_pixels, b.min_view, b.max_view, b.min_length,
       b.max_length, b.gradient, b.neighbours, m.settings.aspect, m.order,
       m.settings.falloff ? static_cast<int>(*m.settings.falloff) : -1,
-      m.adaptive ? "auto" : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal), name_of(m.secondary),
-      m.leak_test, job.world.max_depth);
+      m.adaptive ? fmt::format("auto, to {:.2g} of the error", m.noise() / m.error())
+                 : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal),
+      name_of(m.secondary), m.leak_test, job.world.max_depth);
 }
 
 }  // namespace
@@ -163,6 +164,7 @@ std::optional<RecordCache> Session::fitted(const RecordCache& cache, RayCounts& 
 void Session::save(const RecordCache& cache, const std::string& path) const {
   Job job = *job_;
   if (!settings_.records) job.method = method_;  // as it was asked for: refinement lowers the threshold
+  job.method.secondary = method_.secondary;      // not what a pilot chose
   const auto records = cache.records();
   write_records(path, {scene_hash(loaded_.scene),
                        record_settings(job),

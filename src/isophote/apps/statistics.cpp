@@ -44,10 +44,9 @@ Json parameters(const Statistics& s) {
 /// What gather rays read where they hit, and why.
 std::string describe_secondary(const Statistics& s) {
   std::string text(name_of(s.seeding.chosen));
-  if (s.secondary == Secondary::automatic) text += ", by a pilot";
-  if (s.seeding.gain > 0)
-    text += fmt::format("; cells make the variance of a gather times its rays {:.2g} times smaller", s.seeding.gain);
-  return text;
+  if (!(s.seeding.gain > 0)) return text;
+  return text + fmt::format("{}: cells make the variance of a gather times its rays {:.2g} times smaller",
+                            s.secondary == Secondary::automatic ? ", by a pilot" : "", s.seeding.gain);
 }
 
 Json measured(const MeasuredError& error, const std::optional<double>& asked) {

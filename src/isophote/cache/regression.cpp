@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "isophote/cache/parabola_fit.h"
 #include "isophote/validity/tangent_axes.h"
@@ -12,6 +13,8 @@ namespace {
 /// Radii that a neighbour may be away, of the smaller of the two.
 constexpr float neighbour_radii = 4;
 constexpr std::size_t fewest_neighbours = 3;
+/// Standard errors, of luminance and relative to the neighbourhood's, by which a channel may move.
+constexpr double most_errors = 3;
 
 double square(double x) { return x * x; }
 
@@ -69,9 +72,14 @@ class Parabola {
   }
 
   /// False where the records do not decide, or say something beyond numbers.
-  bool solve() { return fit_.solve() && is_finite(Rgb(fit_[0])) && is_finite(Rgb(fit_[1])) && is_finite(Rgb(fit_[2])); }
+  bool solve() {
+    if (!fit_.solve()) return false;
+    const Gradient<Rgb> g = gradient();
+    return is_finite(Rgb(fit_[0])) && is_finite(g.x) && is_finite(g.y) && is_finite(g.z);
+  }
   const Rgbd& value() const { return fit_[0]; }
   double standard_error() const { return std::sqrt(fit_.variance()); }
+  double least() const { return least_; }
   Gradient<Rgb> gradient() const {
     const Rgbd u = fit_[1] / radius_, v = fit_[2] / radius_;
     const Framed& f = frame_;
@@ -96,6 +104,30 @@ Pooled pooled(const Neighbours& neighbours) {
   }
   const auto count = static_cast<double>(neighbours.size());
   return {sum.spread / count, sum.value / count};
+}
+
+/// A record after its fit, by weighted least squares, and the weight that its own value has in the new one.
+struct Fit {
+  Record record;
+  double own = 1;
+};
+
+/// None where the neighbours do not decide.
+template <class Neighbours>
+std::optional<Fit> fit(const Record& record, const Neighbours& neighbours, const Pooled& pooled, double distrust) {
+  Parabola parabola(record, pooled, distrust);
+  for (const auto& n : neighbours) parabola.add(*n.record, n.offset, n.distance);
+  if (!parabola.solve()) return std::nullopt;
+  const double variance = noise(pooled, record), error = std::sqrt(variance);
+  Fit result{record, square(parabola.standard_error()) / (parabola.least() + variance)};
+  Jet<Rgb>& jet = result.record.jet;
+  for (int c = 0; c < 3; ++c) {
+    const double before = jet.value[c], room = most_errors * error * std::max(1.0, before / pooled.value);
+    jet.value[c] = static_cast<float>(std::max(0.0, std::clamp(parabola.value()[c], before - room, before + room)));
+  }
+  jet.translational = parabola.gradient();
+  jet.standard_error = static_cast<float>(std::min(error, parabola.standard_error()));
+  return result;
 }
 
 }  // namespace
@@ -128,18 +160,16 @@ std::vector<Regression::Neighbour> Regression::neighbours(const Record& record, 
 Regression::Risks Regression::risks(std::uint32_t id, OpenTest open) const {
   const Record& record = records_[id];
   const std::vector<Neighbour> around = neighbours(record, open);
-  Risks risks{};
-  if (around.size() < fewest_neighbours) return risks;
+  if (around.size() < fewest_neighbours) return {};
   const Pooled all = pooled(around);
-  if (!(all.value > 0)) return risks;
+  if (!(all.value > 0)) return {};
+  const double variance = noise(all, record);
+  Risks risks{};
   for (std::size_t i = 0; i < distrusts.size(); ++i) {
-    Parabola parabola(record, all, distrusts[i]);
-    for (const Neighbour& n : around) parabola.add(*n.record, n.offset, n.distance);
-    if (!parabola.solve()) continue;
-    const double before = noise(all, record);
-    const double moved = square(luminance(parabola.value()) - luminance(Rgbd(record.jet.value)));
-    const double own = square(parabola.standard_error()) / (square(1e-4 * all.value) + before);
-    risks[i] = (moved - before + 2 * own * before) / square(all.value);
+    const std::optional<Fit> fitted = fit(record, around, all, distrusts[i]);
+    if (!fitted) return {};
+    const double moved = luminance(Rgbd(fitted->record.jet.value)) - luminance(Rgbd(record.jet.value));
+    risks[i] = (square(moved) - variance + 2 * fitted->own * variance) / square(all.value);
   }
   return risks;
 }
@@ -150,20 +180,8 @@ Record Regression::fitted(std::uint32_t id, double distrust, OpenTest open) cons
   if (around.size() < fewest_neighbours) return record;
   const Pooled all = pooled(around);
   if (!(all.value > 0)) return record;
-  Parabola parabola(record, all, distrust);
-  for (const Neighbour& n : around) parabola.add(*n.record, n.offset, n.distance);
-  if (!parabola.solve()) return record;
-
-  Record result = record;
-  const double error = std::sqrt(noise(all, record));
-  for (int c = 0; c < 3; ++c) {
-    const double before = record.jet.value[c], room = 3 * error * std::max(1.0, before / all.value);
-    result.jet.value[c] =
-        static_cast<float>(std::max(0.0, std::clamp(parabola.value()[c], before - room, before + room)));
-  }
-  result.jet.translational = parabola.gradient();
-  result.jet.standard_error = static_cast<float>(std::min(error, parabola.standard_error()));
-  return result;
+  const std::optional<Fit> fitted = fit(record, around, all, distrust);
+  return fitted ? fitted->record : record;
 }
 
 }  // namespace isophote

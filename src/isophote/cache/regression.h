@@ -28,7 +28,8 @@ class Regression {
   Risks risks(std::uint32_t id, OpenTest open) const;
 
   /// The record with its value, translational gradient and standard error after the fit. No channel moves by more than
-  /// three of its standard errors. Neighbours that `open` finds hidden are left out. Any thread may ask.
+  /// three standard errors of the neighbourhood's luminance, or, of what is brighter than that, as many relative to it.
+  /// Neighbours that `open` finds hidden are left out. Any thread may ask.
   Record fitted(std::uint32_t id, double distrust, OpenTest open) const;
 
  private:

@@ -24,10 +24,10 @@ struct CheckPoint {
 
 /// Rays for a reference whose own error is about half of what a record here would have, and more where records read
 /// cached light, which is less noisy than paths.
-int reference_rays(const Job& job, const RecordCache& cache, const Place& place) {
+int reference_rays(const Job& job, const RecordCache& built, const Place& place) {
   if (!job.method.adaptive) return rays_per_point;
   const int finer = job.method.regress ? 10 : 4;  // records that have been fitted are surer than their rays
-  return finer * strata_near(job, cache, place).size();
+  return finer * strata_near(job, built, place).size();
 }
 
 /// Irradiance (luminance) at a place by a path-traced gather.
@@ -49,14 +49,15 @@ std::optional<SeenPlace> random_point(const Job& job, std::uint64_t key, std::si
 }
 
 /// What the cache and a path-traced gather say of a random visible point that the cache covers.
-CheckPoint check_point(const Job& job, const RecordCache& cache, int turn, std::size_t index, RayCounts& counts) {
+CheckPoint check_point(const Job& job, const RecordCache& cache, const RecordCache& built, int turn, std::size_t index,
+                       RayCounts& counts) {
   const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::check), job.seed, turn);
   RayCounts rays;
   CheckPoint result;
   if (const std::optional<SeenPlace> seen = random_point(job, key, index, rays)) {
     if (const auto cached = cache.interpolate(query_at(seen->place), LeakTest{job.world, rays})) {
       HemisphereGather scratch;
-      const int half = reference_rays(job, cache, seen->place) / 2;
+      const int half = reference_rays(job, built, seen->place) / 2;
       const double a = reference(job, seen->place, half, hash(key, index, 0), scratch, rays);
       const double b = reference(job, seen->place, half, hash(key, index, 1), scratch, rays);
       // Half the difference of two is as wide as their mean's error, whatever strata and paths have in common.
@@ -95,7 +96,8 @@ MeasuredError summary(const std::vector<CheckPoint>& points) {
 
 }  // namespace
 
-MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget, int turn) {
+MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget, int turn,
+                           const RecordCache* built) {
   std::vector<CheckPoint> points(fewest);
   RayCounts rays;
   std::size_t total = most;  // not known before the first points have been measured
@@ -103,7 +105,7 @@ MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64
     for (; from < points.size() && !job.progress.stop(); from += between_stops) {
       rays += for_each(job.parallel, std::min(between_stops, points.size() - from), 1,
                        [&](std::size_t i, RayCounts& counts) {
-                         points[from + i] = check_point(job, cache, turn, from + i, counts);
+                         points[from + i] = check_point(job, cache, built ? *built : cache, turn, from + i, counts);
                        });
       const std::size_t done = std::min(points.size(), from + between_stops);
       job.progress.tell("check", static_cast<double>(done) / static_cast<double>(total));

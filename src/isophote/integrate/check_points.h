@@ -22,7 +22,9 @@ struct MeasuredError {
 
 /// Compares the cache with path-traced gathers at random visible points, as many as `ray_budget` rays pay for, but no
 /// fewer than 40 and no more than 1024. Each `turn` has points of its own: a cache that was refined where it was
-/// measured is measured elsewhere.
-MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget, int turn = 0);
+/// measured is measured elsewhere. `built` are its records before they were fitted, whose own noise says how many rays
+/// a gather takes; null: they were not.
+MeasuredError check_points(const Job& job, const RecordCache& cache, std::uint64_t ray_budget, int turn = 0,
+                           const RecordCache* built = nullptr);
 
 }  // namespace isophote

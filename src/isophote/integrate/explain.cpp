@@ -24,12 +24,13 @@ class Reaches {
     view_.pilot = job.pilot;
   }
 
-  Reach operator()(const Record& record) const {
+  /// `jet` is what the metric saw when it decided the record's footprint.
+  Reach operator()(const Record& record, const Jet<Rgb>& jet) const {
     const float radius = record.footprint.radius, unscaled = record.footprint.unscaled;
     const int order = record.footprint.order;
     Reach reach{.axes = semi_axes(record)};
-    const float alone = wanted(record, {});
-    const float by_gradient = wanted(record, {.gradient = method_.settings.bounds.gradient});
+    const float alone = wanted(record.normal, jet, {});
+    const float by_gradient = wanted(record.normal, jet, {.gradient = method_.settings.bounds.gradient});
     reach.natural = alone * scale_;
     reach.gradient = by_gradient < alone * (1 - about_equal);
     reach.neighbours = method_.settings.bounds.neighbours > 0 && unscaled < by_gradient * (1 - about_equal);
@@ -42,12 +43,12 @@ class Reaches {
 
  private:
   /// The unscaled radius under these bounds; the view matters to others alone.
-  float wanted(const Record& record, const RadiusBounds& bounds) const {
+  float wanted(const Vec3& normal, const Jet<Rgb>& jet, const RadiusBounds& bounds) const {
     View view = view_;
-    view.normal = record.normal;
+    view.normal = normal;
     MetricSettings settings = method_.settings;
     settings.bounds = bounds;
-    return method_.metric->measure(record.jet, view, settings).unscaled;
+    return method_.metric->measure(jet, view, settings).unscaled;
   }
 
   const Method& method_;
@@ -55,7 +56,8 @@ class Reaches {
   View view_;
 };
 
-void add_serving(const Job& job, const RecordCache& cache, const Query& query, OpenTest open, Explanation& e) {
+void add_serving(const Job& job, const RecordCache& cache, const RecordCache& built, const Query& query, OpenTest open,
+                 Explanation& e) {
   const Reaches reaches(job);
   const ErrorModel model = job.method.error_model();
   float weights = 0;
@@ -73,7 +75,7 @@ void add_serving(const Job& job, const RecordCache& cache, const Query& query, O
     s.extrapolated = record.extrapolate(q, query.facing);
     s.predicted_error = predicted_error(record, q, query.normal, model);
     s.tested = record.jet.distances.obstacles.before(q, record.normal);
-    s.reach = reaches(record);
+    s.reach = reaches(record, built.records()[id].jet);
     weights += weight;
   });
   for (ServingRecord& s : e.serving) {
@@ -101,7 +103,7 @@ void add_near_misses(const RecordCache& cache, const Query& query, OpenTest open
 
 }  // namespace
 
-Explanation explain(const Job& job, const RecordCache& cache, int x, int y) {
+Explanation explain(const Job& job, const RecordCache& cache, int x, int y, const RecordCache* built) {
   Explanation e;
   RayCounts counts;
   const FlushDenormals flush;
@@ -116,7 +118,7 @@ Explanation explain(const Job& job, const RecordCache& cache, int x, int y) {
   e.normal = query.normal;
   const LeakTest open{job.world, counts};
   e.irradiance = cache.interpolate(query, open);
-  add_serving(job, cache, query, open, e);
+  add_serving(job, cache, built ? *built : cache, query, open, e);
   add_near_misses(cache, query, open, e);
   return e;
 }

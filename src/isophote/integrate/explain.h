@@ -53,7 +53,8 @@ struct Explanation {
   std::vector<NearMiss> near_misses;   ///< a few, the nearest to serving first
   Radiance mean;                       ///< of all samples of the pixel
 };
-/// job.pilot is to be that of the records: metrics are asked anew what they wanted.
-Explanation explain(const Job& job, const RecordCache& cache, int x, int y);
+/// job.pilot is to be that of the records: metrics are asked anew what they wanted, of the records as they were `built`
+/// before they were fitted to each other; null: they were not.
+Explanation explain(const Job& job, const RecordCache& cache, int x, int y, const RecordCache* built = nullptr);
 
 }  // namespace isophote

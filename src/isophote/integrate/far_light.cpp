@@ -16,9 +16,7 @@ using Cell = IrradianceCells::Cell;
 constexpr float enough = 16;
 /// Samples of which some would have met what cuts their cell.
 constexpr std::uint32_t telling = 64;
-/// From this depth on chains of samples go on by chance. Those that end leave a sample of no light, which those that go
-/// on make up for.
-constexpr int sure_depth = 3;
+/// The chance with which a chain goes on beyond that.
 constexpr float survival = 0.7f;
 
 /// May something part a point of a cell from those of its samples? What cuts the plane that they lie in is met at once
@@ -88,7 +86,8 @@ void take_in(const World& world, IrradianceCells& cells, std::span<const Irradia
       const Cell* const cell = cells.find(more.key);
       // Readers have asked cells that were known whether their samples lie in the open towards them.
       const bool fresh = cell && static_cast<std::size_t>(cell - cells.cells().data()) >= known;
-      if (!fresh || open(world, *cell, more.position, more.normal, counts)) cells.add(more);
+      const bool blocked = fresh && !open(world, *cell, more.position, more.normal, counts);
+      cells.add(blocked ? Cell{.key = more.key, .cut = true} : more);
     }
 }
 

@@ -16,6 +16,10 @@ struct FarLight {
   bool none() const { return !records && !cells; }
 };
 
+/// Beyond so many scattering events chains of samples go on by chance. Those that end leave a sample of no light, which
+/// those that go on make up for.
+inline constexpr int sure_depth = 3;
+
 /// Irradiance at a point, about its interpolated normal, by the samples in its cell: their mean where there are enough,
 /// else one more, which goes on by the same rule at what it hits. Its expectation is the irradiance, averaged over the
 /// cell. `distance` is that of the ray that met the point, `depth` counts the scattering events before it.

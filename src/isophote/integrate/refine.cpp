@@ -31,7 +31,7 @@ BuildReport refine(const Job& asked, RecordCache& cache, std::span<const Place> 
   std::vector<Record> records(cache.records().begin(), cache.records().end());
   for (std::size_t from = 0; from < places.size(); from += between_stops) {
     if (job.progress.stop()) {
-      report.pilot = asked.pilot, report.cancelled = true;
+      report.pilot = asked.pilot, report.seeding.chosen = asked.method.secondary, report.cancelled = true;
       report.places.assign(places.begin(), places.end());
       return report;
     }

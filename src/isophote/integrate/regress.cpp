@@ -31,10 +31,13 @@ RecordCache regressed(const Job& job, const RecordCache& cache, RayCounts& count
   counts += for_each(job.parallel, fitted.size(), 16, [&](std::size_t i, RayCounts& each) {
     fitted[i] = regression.fitted(static_cast<std::uint32_t>(i), distrust, LeakTest{job.world, each});
   });
+  // Radii are what they are; only the limits on extrapolation follow the new values.
+  Method settled = job.method;
+  settled.settings.bounds.neighbours = 0;
   RecordCache result(cache.bounds());
   for (const Record& record : fitted) {
     const std::uint32_t id = result.insert(record);
-    job.method.settle(result.settling(), {&id, 1});
+    settled.settle(result.settling(), {&id, 1});
   }
   result.reindex();
   return result;

@@ -9,10 +9,14 @@ namespace isophote {
 namespace {
 
 /// The chance with which a glossy ray is followed: always from the camera, by what it can bring further on, and after
-/// some events never surely, or paths between bright metals would not end.
-float glossy_chance(const SurfacePoint& point, const Vec3& wo, const Rgb& throughput, int depth, int events) {
+/// some events never surely, or paths between bright metals would not end. Where the diffuse lobe goes on as well, deep
+/// down it is so small that both together have less than one ray to follow: they would branch without end.
+float glossy_chance(const FarLight& from, const SurfacePoint& point, const Vec3& wo, const Rgb& throughput, int depth,
+                    int events) {
   constexpr int sure_events = 3;
+  constexpr float of_both = 0.2f;
   if (depth == 0) return 1;
+  if (from.cells && depth > sure_depth && point.bsdf.has_diffuse()) return of_both;
   const Rgb albedo = specular_albedo(point.bsdf, dot(wo, point.bsdf.frame.n));
   return std::clamp(4 * max_component(throughput * albedo), 0.1f, events < sure_events ? 1.0f : 0.95f);
 }
@@ -50,7 +54,7 @@ Shaded shade(const World& world, const FarLight& from, const SurfacePoint& point
   Rgb throughput{1.0f};
   GlossyRay ray;
   for (int events = 0; !left.whole && at->bsdf.has_glossy(); ++events) {
-    const float chance = glossy_chance(*at, towards, throughput, depth, events);
+    const float chance = glossy_chance(from, *at, towards, throughput, depth, events);
     if (!(sampler.next() < chance)) break;
     throughput = throughput / chance;
     ray = glossy_ray(world, *at, towards, sampler, counts);
