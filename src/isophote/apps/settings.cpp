@@ -89,8 +89,7 @@ constexpr Option table[] = {
      "method path ignores it)",
      [](S& s, T t) { s.rays = t == "auto" ? 0 : number<int>(t, 12, 1 << 24); }},
     {"method", "secondary", "off|cells|records|auto",
-     "what gather rays read where they hit: nothing, so that paths go on; irradiance averaged over the cells of a "
-     "grid; "
+     "what gather rays read where they hit: nothing, so that paths go on; irradiance averaged over the cells of grids; "
      "the records so far, and cells elsewhere; auto: records or off, by a pilot (method cached: auto)",
      [](S& s, T t) { s.secondary = secondary(t); }, true},
     {"method", "leak-test", "on|off",
