@@ -22,20 +22,21 @@ class OctreeTest : public testing::Test {
     return {uniform(box.lower.x, box.upper.x), uniform(box.lower.y, box.upper.y), uniform(box.lower.z, box.upper.z)};
   }
 
-  /// Every sphere that contains `p` is offered; returns how many others are too.
+  /// Every sphere that contains `p` is offered, and hardly another; returns how many others lie near.
   static std::size_t expect_all_found(const Octree& octree, const std::vector<Sphere>& spheres, const Vec3& p) {
-    std::set<std::uint32_t> offered;
+    std::set<std::uint32_t> offered, near;
     octree.any(p, [&](std::uint32_t id) {
       EXPECT_TRUE(offered.insert(id).second) << id << " offered twice";
       return false;
     });
-    std::size_t containing = 0;
+    octree.visit_near(p, [&](std::uint32_t id) { near.insert(id); });
     for (std::uint32_t id = 0; id < spheres.size(); ++id) {
-      if (!spheres[id].contains(p)) continue;
-      ++containing;
-      EXPECT_TRUE(offered.count(id)) << "sphere " << id << " of radius " << spheres[id].radius;
+      const Sphere grown{spheres[id].center, spheres[id].radius * (1 + 0x1p-16f)};
+      const bool found = offered.count(id) > 0;
+      EXPECT_TRUE(found || !spheres[id].contains(p)) << id << " of radius " << spheres[id].radius;
+      EXPECT_TRUE(!found || (grown.contains(p) && near.count(id))) << id << " of radius " << spheres[id].radius;
     }
-    return offered.size() - containing;
+    return near.size() - offered.size();
   }
 
   static Octree index(const Box& bounds, const std::vector<Sphere>& spheres) {

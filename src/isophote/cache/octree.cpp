@@ -25,23 +25,23 @@ Octree::Octree(const Box& bounds)
       nodes_(1) {}
 
 void Octree::insert(std::uint32_t id, const Vec3& center, float radius) {
-  insert(0, center_, half_, id, center, radius);
+  constexpr float rounding = 1 + 0x1p-18f;
+  insert(0, center_, half_, {center, radius * radius * rounding, id}, radius);
 }
 
-void Octree::insert(std::uint32_t node, const Vec3& node_center, float half, std::uint32_t id, const Vec3& center,
-                    float radius) {
+void Octree::insert(std::uint32_t node, const Vec3& node_center, float half, const Sphere& sphere, float radius) {
   if (half <= 2 * radius || half <= half_ * smallest_cell) {
-    nodes_[node].ids.push_back(id);
+    nodes_[node].spheres.push_back(sphere);
     return;
   }
   half *= 0.5f;
   for (int octant = 0; octant < 8; ++octant) {
-    if (!reaches(node_center, octant, center, radius)) continue;
+    if (!reaches(node_center, octant, sphere.center, radius)) continue;
     if (nodes_[node].children[octant] == 0) {
       nodes_[node].children[octant] = static_cast<std::uint32_t>(nodes_.size());
       nodes_.emplace_back();
     }
-    insert(nodes_[node].children[octant], child_center(node_center, half, octant), half, id, center, radius);
+    insert(nodes_[node].children[octant], child_center(node_center, half, octant), half, sphere, radius);
   }
 }
 

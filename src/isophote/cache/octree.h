@@ -18,15 +18,38 @@ class Octree {
 
   void insert(std::uint32_t id, const Vec3& center, float radius);
 
-  /// Does test(id) hold for any sphere that contains `p`? Asks it of all those, and of some that do not contain `p`, in
-  /// an order fixed by the insertions, until it holds.
+  /// Does test(id) hold for any sphere that contains `p`? Asks it of all those, and of some that rounding might have
+  /// grow to contain `p`, in an order fixed by the insertions, until it holds.
   template <class Test>
   bool any(const Vec3& p, Test&& test) const {
+    return descend(p, [&](const Sphere& s) { return length_squared(p - s.center) <= s.reach && test(s.id); });
+  }
+
+  /// Calls visit(id) for all spheres that contain `p`, and for some others near it.
+  template <class Visit>
+  void visit_near(const Vec3& p, Visit&& visit) const {
+    descend(p, [&](const Sphere& s) { return visit(s.id), false; });
+  }
+
+ private:
+  /// Kept where queries pass, so that what the spheres stand for is not touched where they are missed, as most are.
+  struct Sphere {
+    Vec3 center;
+    float reach;  // squared radius, a little more
+    std::uint32_t id;
+  };
+  struct Node {
+    std::array<std::uint32_t, 8> children{};  // 0: none, for the root is nobody's child
+    std::vector<Sphere> spheres;
+  };
+
+  template <class Test>
+  bool descend(const Vec3& p, Test&& test) const {
     Vec3 center = center_;
     float half = half_;
     for (std::uint32_t node = 0;;) {
-      for (const std::uint32_t id : nodes_[node].ids)
-        if (test(id)) return true;
+      for (const Sphere& sphere : nodes_[node].spheres)
+        if (test(sphere)) return true;
       const int octant = (p.x > center.x) | (p.y > center.y) << 1 | (p.z > center.z) << 2;
       node = nodes_[node].children[octant];
       if (node == 0) return false;
@@ -34,19 +57,11 @@ class Octree {
       center = child_center(center, half, octant);
     }
   }
-
- private:
-  struct Node {
-    std::array<std::uint32_t, 8> children{};  // 0: none, for the root is nobody's child
-    std::vector<std::uint32_t> ids;
-  };
-
   static Vec3 child_center(const Vec3& c, float half, int octant) {
     return {octant & 1 ? c.x + half : c.x - half, octant & 2 ? c.y + half : c.y - half,
             octant & 4 ? c.z + half : c.z - half};
   }
-  void insert(std::uint32_t node, const Vec3& node_center, float half, std::uint32_t id, const Vec3& center,
-              float radius);
+  void insert(std::uint32_t node, const Vec3& node_center, float half, const Sphere& sphere, float radius);
 
   Vec3 center_;
   float half_;

@@ -68,7 +68,7 @@ class RecordCache {
   /// Calls visit(record) for all records whose footprint may reach `p`, and for some others near it.
   template <class Visit>
   void visit_near(const Vec3& p, Visit&& visit) const {
-    octree_.any(p, [&](std::uint32_t id) { return visit(records_[id]), false; });
+    octree_.visit_near(p, [&](std::uint32_t id) { visit(records_[id]); });
   }
 
  private:
