@@ -151,16 +151,19 @@ def refine():
 
 
 def rays():
-    """Throughput beside the bare Embree loop."""
+    """What rays, lookups and records cost beside the bare Embree loop."""
     rows = []
     for view in (CORNELL, ATRIUM):
         out = subprocess.run([str(ROOT / "build" / "release" / "bench_rays"), str(view.scene)], check=True, capture_output=True, text=True)
         for name, value in json.loads(out.stdout).items():
-            rows.append([view.name, name, f"{value['million_rays_per_second']:.2f}", f"{100 * value['of_bare']:.0f}"])
-    return ("## Rays per CPU second beside bare Embree\n\nOne thread. *bare* casts camera rays and three cosine bounces, each with a shadow ray, and "
-            "does nothing else; *gather* reads cached radiance where it hits, *gather_paths* follows paths; *final* looks up the cache. Medians of "
-            "7 rounds; the share is paired within each round:\n\n" +
-            table(["scene", "part", "million rays a CPU second", "% of bare"], rows))
+            number = value["millions_per_second"]
+            rows.append([view.name, name, f"{number:.2f}" if number > 0.1 else f"{number:.5f}", f"{1 / number:.2f}", f"{1 / value['of_bare']:.2f}"])
+    return ("## Cost of rays, lookups and records beside bare Embree\n\nOne thread. *bare* casts camera rays and three cosine bounces, each with a "
+            "shadow ray, and does nothing else. *path*, the gathers and *final* are per ray, of whatever kind, with all that is done for it: "
+            "*gather_records* reads records and cells where it hits, *gather_cells* cells, *gather_paths* follows paths; *final* is the last pass. "
+            "*lookup* is one interpolation in the finished cache, for each pixel in turn or in random order; *record* is one of method `cached`, "
+            "its gather and all. Medians of 7 rounds; the last column is paired within each round:\n\n" +
+            table(["scene", "part", "millions a CPU second", "CPU microseconds each", "times a bare ray"], rows))
 
 
 def estimators():

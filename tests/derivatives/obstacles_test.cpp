@@ -130,6 +130,21 @@ TEST(Obstacles, ABoardOverhead) {
   }
 }
 
+// Nor does it help a query that the board ends close to its side of the record, where few rays go so steeply.
+TEST(Obstacles, TheEdgeOfABoardOverhead) {
+  RandomPlaces random(14);
+  const Vec3 normal{0, 0, 1};
+  const HemisphereGather gather = gather_of(normal, Strata::about(200), random, [](const Vec3& d) {
+    const float distance = 0.12f / d.z;
+    return distance * d.x > -0.002f ? distance : infinity;
+  });
+  const Obstacles seen = obstacles(gather);
+  for (int i = 0; i < 200; ++i) {
+    const double phi = random.number(0, static_cast<float>(turn)), across = random.number(0, 0.1f);
+    EXPECT_TRUE(seen.before(level(gather.frame, phi, across) + normal * 0.121f, normal));
+  }
+}
+
 TEST(Obstacles, OfThreeStrataEachCountsAllRound) {
   RandomPlaces random(17);
   const HemisphereGather gather = gather_of({0, 0, 1}, {1, 3}, random, [](const Vec3&) { return 2.0f; });

@@ -18,7 +18,8 @@ struct Refined {
 Refined refine_once(const Stage& stage, int threads) {
   Job job = stage.job(method("cached", 0.1), 48, 48, 1);
   job.method.adaptive = true;
-  job.method.regress = false;  // so that the records' own noise shows
+  job.method.regress = false;                      // so that the records' own noise shows
+  job.method.settings.bounds.max_view = infinity;  // and the threshold decides how far they reach
   job.parallel = thread_for(threads);
   Refined r{empty_cache(job), empty_cache(job), {}, {}, {}};
   const BuildReport built = build_in_rounds(job, r.first);

@@ -37,10 +37,11 @@ TEST(BoundedSplitSphere, EachBoundAlone) {
   EXPECT_FLOAT_EQ(radius(jet, {.max_pixels = 30}), 0.3f);
   EXPECT_FLOAT_EQ(radius(jet, {.max_pixels = 50}), natural);
   const View picture{.pixel = 0.01f, .picture = 8, .scene_scale = 10};
-  EXPECT_FLOAT_EQ(radius(jet, {.min_view = 0.5f}, picture), 0.5f * std::sqrt(a) * 8);
+  EXPECT_FLOAT_EQ(radius(jet, {.min_view = 0.5f}, picture), 0.5f * a * 8);
   EXPECT_FLOAT_EQ(radius(jet, {.min_view = 0.01f}, picture), natural);
   EXPECT_FLOAT_EQ(radius(jet, {.max_pixels = 60, .min_view = 0.5f}, picture), 0.6f);  // the upper bound in pixels wins
   EXPECT_FLOAT_EQ(radius(jet, {.max_view = 0.005f}, picture), 0.005f * 8);
+  EXPECT_FLOAT_EQ(radius(jet, {.min_view = 0.5f, .max_view = 0.005f}, picture), 0.5f * a * 8);  // the lower bound wins
   EXPECT_FLOAT_EQ(radius(jet, {.max_view = 0.5f}, picture), natural);
   EXPECT_FLOAT_EQ(radius(jet, {.min_length = 0.7f}), 0.7f);
   EXPECT_FLOAT_EQ(radius(jet, {.min_length = 0.1f}), natural);

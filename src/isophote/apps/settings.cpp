@@ -110,7 +110,7 @@ constexpr Option table[] = {
      [](S& s, T t) { s.min_pixels = number<float>(t, 0, 1e6); }, true},
     {"method", "max-pixels", "N", "upper bound of radii, in pixels",
      [](S& s, T t) { s.max_pixels = number<float>(t, 0, 1e6); }, true},
-    {"method", "min-view", "H", "lower bound of radii, in heights of the picture, times the root of the threshold a",
+    {"method", "min-view", "H", "lower bound of radii, in heights of the picture, times the threshold a",
      [](S& s, T t) { s.min_view = number<float>(t, 0, 1e6); }, true},
     {"method", "max-view", "H", "upper bound of radii, in heights of the picture",
      [](S& s, T t) { s.max_view = number<float>(t, 0, 1e6); }, true},
@@ -222,7 +222,7 @@ std::string describe(const RadiusBounds& b) {
   const auto add = [&](const std::string& s) { text += (text.empty() ? "" : ", ") + s; };
   if (b.min_pixels > 0) add(fmt::format("at least {:g} px", b.min_pixels));
   if (b.max_pixels < std::numeric_limits<float>::infinity()) add(fmt::format("at most {:g} px", b.max_pixels));
-  if (b.min_view > 0) add(fmt::format("at least {:g} sqrt(a) of the picture's height", b.min_view));
+  if (b.min_view > 0) add(fmt::format("at least {:g} a of the picture's height", b.min_view));
   if (b.max_view < std::numeric_limits<float>::infinity())
     add(fmt::format("at most {:g} of the picture's height", b.max_view));
   if (b.min_length > 0) add(fmt::format("at least {:g} scene units", b.min_length));

@@ -97,7 +97,7 @@ constexpr const Metric &split = row(metric_table, "split-sphere"), &bounded = ro
 
 constexpr float any_aspect = std::numeric_limits<float>::infinity();
 const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = 1};
-const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.08f, .max_view = 1 / 16.0f, .neighbours = 1};
+const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.08f, .max_view = 0.03f, .neighbours = 1};
 const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = 1};
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.
@@ -175,7 +175,7 @@ double Method::error() const { return std::pow(settings.a / metric->a_factor, 1 
 float Method::noise() const {
   // A value is read from a few records, whose errors average out in part, and of the mean of their size; the more
   // where each is fitted to many.
-  const double of_error = regress ? 2 : 1.4;
+  const double of_error = regress ? 2.8 : 1.4;
   return static_cast<float>(of_error * error());
 }
 

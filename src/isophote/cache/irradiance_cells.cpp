@@ -41,6 +41,11 @@ float IrradianceCells::edge(std::uint64_t key) const {
   return std::ldexp(diagonal_, -static_cast<int>(key >> level_at & 15));
 }
 
+void IrradianceCells::clear() {
+  cells_.clear();
+  std::fill(table_.begin(), table_.end(), 0);
+}
+
 std::size_t IrradianceCells::slot(std::uint64_t key) const {
   std::size_t i = hash(key) & (table_.size() - 1);
   while (table_[i] != 0 && cells_[table_[i] - 1].key != key) i = (i + 1) & (table_.size() - 1);

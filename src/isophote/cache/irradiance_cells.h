@@ -38,6 +38,8 @@ class IrradianceCells {
   const Cell* find(std::uint64_t key) const;
   /// Adds the samples of `more` to its cell. No more than `most_cells` are kept: what would be another is dropped.
   void add(const Cell& more);
+  /// Forgets all cells, not their memory.
+  void clear();
   /// In the order of their first samples.
   std::span<const Cell> cells() const { return cells_; }
 

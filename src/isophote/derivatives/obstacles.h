@@ -49,6 +49,9 @@ struct Obstacles {
     constexpr float margin = 0.8f;
     const auto beyond = [&](float distance) { return length_squared(q) > margin * margin * distance * distance; };
     if (!beyond(from_bits(least))) return false;  // as nearly always
+    // What lies over the record may be hidden by what hangs between, in whichever sector that was seen.
+    const float height = dot(q, normal);
+    if (2 * height * height > length_squared(q)) return true;
     const Frame frame(normal);
     return beyond(distance(sector(dot(q, frame.u), dot(q, frame.v))));
   }

@@ -6,15 +6,13 @@
 
 namespace isophote {
 
-std::vector<double> stratum_variances(const HemisphereGather& gather) {
+std::span<const double> stratum_variances(const HemisphereGather& gather) {
   const Strata& s = gather.strata;
-  std::vector<double> seen;
-  seen.reserve(gather.samples.size());
+  thread_local std::vector<double> seen, variances;
+  seen.clear(), variances.clear();
   for (const GatherSample& sample : gather.samples) seen.push_back(luminance(Rgbd(sample.radiance)));
   const auto n = static_cast<std::size_t>(s.azimuthal);
   const auto half_square = [](double difference) { return difference * difference / 2; };
-  std::vector<double> variances;
-  variances.reserve(seen.size());
   for (std::size_t j = 0; j < static_cast<std::size_t>(s.polar); ++j)
     for (std::size_t k = 0; k < n; ++k) {
       const double here = seen[j * n + k];

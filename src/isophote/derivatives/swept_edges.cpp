@@ -10,30 +10,39 @@ namespace isophote {
 
 namespace swept {
 
-Grid::Grid(const Strata& s) {
-  std::vector<Azimuth> azimuths;
-  for (int k = 0; k < s.azimuthal; ++k) azimuths.push_back(azimuth(s, k));
+namespace {
+
+void set_corners(Grid& grid, const Strata& s) {
+  grid.corners.clear(), grid.ring_angles.clear(), grid.wall_angles.clear(), grid.azimuths.clear();
+  for (int k = 0; k < s.azimuthal; ++k) grid.azimuths.push_back(azimuth(s, k));
   const double half_turn_of_cell = std::sin(s.azimuth(0.5));
   for (int j = 0; j <= s.polar; ++j) {
     const double sin = s.sin_edge(j), cos = s.cos_edge(j);
-    for (const Azimuth& a : azimuths) corners.push_back({sin * a.cos, sin * a.sin, cos});
-    if (j < s.polar) ring_angles.push_back(s.theta_edge(j + 1) - s.theta_edge(j));
-    wall_angles.push_back(2 * std::asin(sin * half_turn_of_cell));
+    for (const Azimuth& a : grid.azimuths) grid.corners.push_back({sin * a.cos, sin * a.sin, cos});
+    if (j < s.polar) grid.ring_angles.push_back(s.theta_edge(j + 1) - s.theta_edge(j));
+    grid.wall_angles.push_back(2 * std::asin(sin * half_turn_of_cell));
   }
 }
 
-std::vector<Plane> planes_of(const HemisphereGather& gather) {
-  std::vector<Plane> planes;
-  planes.reserve(gather.samples.size());
+void set_planes(Grid& grid, const HemisphereGather& gather) {
+  grid.planes.clear();
   const Framed frame(gather.frame);
   for (const GatherSample& s : gather.samples) {
-    Plane& plane = planes.emplace_back();
+    Plane& plane = grid.planes.emplace_back();
     plane.normal = frame.to_local(Vec3d(s.normal));
     const double slope = dot(plane.normal, frame.to_local(Vec3d(s.direction)));
     if (s.distance < infinity) plane.inverse = 1 / static_cast<double>(s.distance);
     plane.scale = slope != 0 ? 1 / slope : 0;
   }
-  return planes;
+}
+
+}  // namespace
+
+const Grid& grid_of(const HemisphereGather& gather) {
+  thread_local Grid grid;
+  set_corners(grid, gather.strata);
+  set_planes(grid, gather);
+  return grid;
 }
 
 }  // namespace swept
@@ -46,7 +55,8 @@ Jet<Rgb> swept_edges(const HemisphereGather& gather) {
   struct Sweep {
     double u = 0, v = 0;
   };
-  std::vector<Sweep> sweeps(gather.samples.size());
+  thread_local std::vector<Sweep> sweeps;
+  sweeps.assign(gather.samples.size(), {});
   for_each_swept_edge(gather, [&](const SweptEdge& e) {
     const EdgeMoments s(e);
     const Rgbd step = (Rgbd(e.to->radiance) - Rgbd(e.from->radiance)) * e.sign;
@@ -61,7 +71,7 @@ Jet<Rgb> swept_edges(const HemisphereGather& gather) {
     hessian.uv += second * (e.c.x * q.y + e.c.y * q.x);
     hessian.vv += second * 2 * e.c.y * q.y;
   });
-  const std::vector<double> variances = stratum_variances(gather);
+  const std::span<const double> variances = stratum_variances(gather);
   double variance = 0;
   for (std::size_t i = 0; i < sweeps.size(); ++i)
     variance += variances[i] * (sweeps[i].u * sweeps[i].u + sweeps[i].v * sweeps[i].v) / 2;

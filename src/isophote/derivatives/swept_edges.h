@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "isophote/core/check.h"
 #include "isophote/derivatives/edge.h"
 #include "isophote/derivatives/gather.h"
 #include "isophote/derivatives/jet.h"
+#include "isophote/derivatives/tangent.h"
 
 namespace isophote {
 
@@ -36,14 +38,16 @@ struct Plane {
 /// Depths of two neighbours of which one is more than so many times as far are a step, else one surface.
 inline constexpr double step_ratio = 1.3;
 
-/// Corners of the strata and the angles between them.
+/// Corners of the strata and the angles between them, and the planes of the samples.
 struct Grid {
-  explicit Grid(const Strata& strata);
+  std::vector<Azimuth> azimuths;
   std::vector<Vec3d> corners;                    // (polar + 1) x azimuthal
   std::vector<double> ring_angles, wall_angles;  // across ring j; of the wall before it
+  std::vector<Plane> planes;
 };
 
-std::vector<Plane> planes_of(const HemisphereGather& gather);
+/// In memory of the calling thread, which its next call reuses.
+const Grid& grid_of(const HemisphereGather& gather);
 
 /// Inverse depths of the wall between two samples in two directions: on the nearer surface at a step, between both
 /// elsewhere.
@@ -61,15 +65,14 @@ template <class Visit>
 void for_each_swept_edge(const HemisphereGather& gather, Visit&& visit) {
   const Strata& s = gather.strata;
   ISOPHOTE_CHECK(gather.samples.size(), ==, static_cast<std::size_t>(s.size()));
-  const swept::Grid grid(s);
-  const std::vector<swept::Plane> planes = swept::planes_of(gather);
+  const swept::Grid& grid = swept::grid_of(gather);
   const auto wall = [&](std::size_t from, std::size_t to, std::size_t corner_a, std::size_t corner_b, double angle,
                         double sign) {
     const GatherSample &p = gather.samples[from], &q = gather.samples[to];
     if (p.radiance == q.radiance || p.surface == GatherSample::own_surface || q.surface == GatherSample::own_surface)
       return;
     const Vec3d &wa = grid.corners[corner_a], &wb = grid.corners[corner_b];
-    const auto [ia, ib] = swept::inverse_depths(planes[from], planes[to], wa, wb);
+    const auto [ia, ib] = swept::inverse_depths(grid.planes[from], grid.planes[to], wa, wb);
     if (!(ia > 0 && ib > 0)) return;
     SweptEdge edge;
     if (!edge.set(wa / ia, wb / ib, angle)) return;

@@ -19,6 +19,6 @@ float relative_spread(const Jet<Rgb>& jet, const Pilot& pilot);
 Strata strata_near(const Job& job, const RecordCache& cache, const Place& place);
 
 /// No gather whose rays adapt has fewer, for derivatives need them, or more.
-inline constexpr int fewest_rays = 200, most_rays = 1 << 16;
+inline constexpr int fewest_rays = 100, most_rays = 1 << 16;
 
 }  // namespace isophote

@@ -225,12 +225,13 @@ class Builder {
 
   std::vector<std::uint32_t> add_records(const std::vector<Place>& places) {
     std::vector<Record> made(places.size());
-    std::vector<IrradianceCells> left(places.size());
+    left_.resize(std::max(left_.size(), places.size()));
+    for (IrradianceCells& left : left_) left.clear();
     report_.rays += for_each(job_.parallel, places.size(), 1, [&](std::size_t i, RayCounts& counts) {
       thread_local HemisphereGather scratch;
-      made[i] = make_record(job_, cache_, places[i], scratch, left[i], counts);
+      made[i] = make_record(job_, cache_, places[i], scratch, left_[i], counts);
     });
-    take_in(job_.world, cache_.cells(), left, report_.rays);
+    take_in(job_.world, cache_.cells(), left_, report_.rays);
     std::vector<std::uint32_t> fresh;
     fresh.reserve(made.size());
     for (const Record& record : made) fresh.push_back(cache_.insert(record));
@@ -242,8 +243,9 @@ class Builder {
   BuildReport report_;
   Job job_;
   RecordCache& cache_;
-  bool seeded_ = false;          // the cells
-  double done_ = 0, share_ = 0;  // of the build: before the present level, and of it
+  std::vector<IrradianceCells> left_;  // by the gathers of a round
+  bool seeded_ = false;                // the cells
+  double done_ = 0, share_ = 0;        // of the build: before the present level, and of it
 };
 
 }  // namespace

@@ -10,6 +10,9 @@
 namespace isophote {
 namespace {
 
+/// Of each place that fills cells: fewer would not fill them enough to tell what they are worth.
+constexpr int seeding_rays = 200;
+
 /// The job's estimator at all places, at each by strata(i).
 template <class StrataOf>
 std::vector<Jet<Rgb>> jets_at(const Job& job, RecordCache& cache, std::span<const Place> places, StrataOf&& strata,
@@ -90,7 +93,7 @@ Seeding seed_cells(const Job& asked, RecordCache& cache, RayCounts& counts) {
     double deviation = 0;
     for (Place& place : places) place.key = hash(place.key, round);
     for (const Jet<Rgb>& jet : jets_at(
-             job, cache, places, [](std::size_t) { return Strata::about(fewest_rays); }, rays))
+             job, cache, places, [](std::size_t) { return Strata::about(seeding_rays); }, rays))
       deviation += jet.standard_error;
     cost[round] = deviation * deviation * static_cast<double>(rays.total());
     counts += rays;

@@ -12,8 +12,9 @@ namespace isophote {
 struct RadiusBounds {
   float min_pixels = 0;  ///< [Tabellion, Lamorlette 2004], on the used radius
   float max_pixels = std::numeric_limits<float>::infinity();
-  float min_view = 0;  ///< times the root of the threshold, in heights of the picture: a floor of any resolution
-  float max_view = std::numeric_limits<float>::infinity();  ///< heights of the picture: nothing is missed at large
+  float min_view = 0;  ///< times the threshold, in heights of the picture: a floor of any resolution
+  float max_view = std::numeric_limits<float>::infinity();  ///< heights of the picture: no blotch is larger, nothing is
+                                                            ///< missed at large
   float min_length = 0;                                     ///< scene units, on the used radius
   float max_length = std::numeric_limits<float>::infinity();
   bool gradient = false;  ///< R <= E / |grad E|, on the unscaled radius, for the channel that changes most
@@ -22,8 +23,8 @@ struct RadiusBounds {
   bool operator==(const RadiusBounds&) const = default;
 };
 
-/// The least and the largest radius that bounds allow at a place. Bounds in the picture win over those in scene units,
-/// lower over upper ones; no radius is above the scene's size or under `smallest_radius` of it.
+/// The least and the largest radius that bounds allow at a place. Pixels win over heights of the picture, these over
+/// scene units, lower over upper ones of a kind; no radius is above the scene's size or under `smallest_radius` of it.
 struct RadiusRange {
   float smallest, largest;
 
@@ -32,10 +33,12 @@ struct RadiusRange {
     const auto times = [](float bound, float size) {
       return bound == std::numeric_limits<float>::infinity() ? bound : bound * size;
     };
-    const float pixels = std::min(times(bounds.max_pixels, view.pixel), times(bounds.max_view, view.picture));
-    const float wanted = std::max(bounds.min_length, bounds.min_view * std::sqrt(threshold) * view.picture);
-    smallest = std::max({std::min(wanted, pixels), bounds.min_pixels * view.pixel, smallest_radius * view.scene_scale});
-    largest = std::max(smallest, std::min({bounds.max_length, pixels, view.scene_scale}));
+    const float most_pixels = times(bounds.max_pixels, view.pixel);
+    const float most = std::min(most_pixels, times(bounds.max_view, view.picture));
+    smallest =
+        std::max({std::min(bounds.min_length, most), std::min(bounds.min_view * threshold * view.picture, most_pixels),
+                  bounds.min_pixels * view.pixel, smallest_radius * view.scene_scale});
+    largest = std::max(smallest, std::min({bounds.max_length, most, view.scene_scale}));
   }
 };
 
