@@ -137,7 +137,7 @@ int run(const char* path, int repeats) {
   const float offset = 1e-5f * rays.scene_scale();
   RecordCache cache = empty_cache(job);
   const BuildReport built = build_in_rounds(job, cache);
-  Job so_far = job;  // as it is when a record is made
+  Job so_far = job;  // as it is when the last records are made
   so_far.pilot = built.pilot, so_far.method.secondary = built.seeding.chosen;
   const auto film_rays = [&](const RecordCache* from) {
     Film film(job.width, job.height);
@@ -149,6 +149,7 @@ int run(const char* path, int repeats) {
     IrradianceCells left;
     const FarLight from{records, cells ? &cache.cells() : nullptr, &left};
     for (std::size_t i = 0; i < cache.records().size(); i += cache.records().size() / 64 + 1) {
+      left.clear();
       const Record& r = cache.records()[i];
       gather_hemisphere(job.world, from, {r.position, r.normal, r.normal, 0, offset}, job.strata, i, scratch, counts);
     }
@@ -167,7 +168,10 @@ int run(const char* path, int repeats) {
     HemisphereGather scratch;
     IrradianceCells left;
     const std::vector<Place> places = random_places(so_far, counts);
-    for (const Place& place : places) sink += make_record(so_far, cache, place, scratch, left, counts).jet.value.r;
+    for (const Place& place : places) {
+      left.clear();
+      sink += make_record(so_far, cache, place, scratch, left, counts).jet.value.r;
+    }
     return places.size();
   };
   std::vector<Series> all{{"bare", [&] { return bare_loop(job, bare, light, 3); }, {}},
@@ -190,7 +194,7 @@ int run(const char* path, int repeats) {
   for (const Series& s : all) {
     std::vector<double> ratios;
     for (int i = 0; i < repeats; ++i) ratios.push_back(s.rates[i] / all[0].rates[i]);
-    fmt::print("{}\"{}\": {{\"millions_per_second\": {:.6f}, \"of_bare\": {:.6f}}}", &s == all.data() ? "" : ", ",
+    fmt::print("{}\"{}\": {{\"millions_per_second\": {:.6g}, \"of_bare\": {:.6g}}}", &s == all.data() ? "" : ", ",
                s.name, median(s.rates), median(ratios));
   }
   fmt::print("}}\n");

@@ -161,8 +161,8 @@ def rays():
     return ("## Cost of rays, lookups and records beside bare Embree\n\nOne thread. *bare* casts camera rays and three cosine bounces, each with a "
             "shadow ray, and does nothing else. *path*, the gathers and *final* are per ray, of whatever kind, with all that is done for it: "
             "*gather_records* reads records and cells where it hits, *gather_cells* cells, *gather_paths* follows paths; *final* is the last pass. "
-            "*lookup* is one interpolation in the finished cache, for each pixel in turn or in random order; *record* is one of method `cached`, "
-            "its gather and all. Medians of 7 rounds; the last column is paired within each round:\n\n" +
+            "*lookup* is one interpolation in the finished cache, without rays of the leak test, for each pixel in turn or in random "
+            "order; *record* is one of method `cached`, its gather and all, where the cache is nearly finished. Medians of 7 rounds; the last column is paired within each round:\n\n" +
             table(["scene", "part", "millions a CPU second", "CPU microseconds each", "times a bare ray"], rows))
 
 

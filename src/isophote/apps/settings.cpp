@@ -205,14 +205,15 @@ Method chosen_method(const RenderSettings& s) {
   method.adaptive = s.rays ? *s.rays == 0 : method.adaptive && !s.records;
   method.leak_test = s.leak_test.value_or(method.leak_test);
   // In Ward's order pixels have been drawn before the last record is made.
-  method.regress = s.regress.value_or(method.regress && !s.lazy && method.leak_test && method.estimator->order > 1);
+  method.regress =
+      s.regress.value_or(method.regress && !s.lazy && method.leak_test && method.estimator->gradient_error);
   if (method.regress && s.lazy)
     throw UsageError("--regress on wants all records before the first pixel: no --order lazy");
   if (method.regress && !method.leak_test)
     throw UsageError("--regress on would fit records to what lies behind a wall: it takes --leak-test on");
-  if (method.regress && method.estimator->order < 2)
-    throw UsageError(
-        fmt::format("--regress on needs a Hessian, which estimator '{}' does not give", method.estimator->name));
+  if (method.regress && !method.estimator->gradient_error)
+    throw UsageError(fmt::format("--regress on needs gradients and their errors, which estimator '{}' does not give",
+                                 method.estimator->name));
   check_combination(method);
   return method;
 }

@@ -33,7 +33,7 @@ constexpr Estimator estimator_table[] = {
      [](const HemisphereGather& g) { return schwarzhaupt_2012(g, Horizon::closed); }},
     {"triangulated-open", "[Schwarzhaupt 2012]", "the same, open at the horizon", 2,
      [](const HemisphereGather& g) { return schwarzhaupt_2012(g, Horizon::open); }},
-    {"swept-edges", "", "value, gradients, Hessian", 2, swept_edges},
+    {"swept-edges", "", "value, gradients, Hessian", 2, swept_edges, true},
 };
 
 void settle_by(const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings& s, float scale) {

@@ -25,6 +25,7 @@ struct Estimator {
   std::string_view name, paper, gives;
   int order;  ///< 0: the value; 1: gradients too; 2: and the Hessian
   Jet<Rgb> (*estimate)(const HemisphereGather&);
+  bool gradient_error = false;  ///< says how sure its gradient is, which regression weighs it by
 };
 
 /// A metric of `validity/`: how far that can be trusted, and what records do to each other.

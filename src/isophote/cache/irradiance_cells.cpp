@@ -64,7 +64,7 @@ void IrradianceCells::grow() {
 }
 
 void IrradianceCells::add(const Cell& more) {
-  if (2 * (cells_.size() + 1) > table_.size()) grow();
+  if (cells_.size() < most_cells && 2 * (cells_.size() + 1) > table_.size()) grow();
   const std::size_t at = slot(more.key);
   if (table_[at] == 0) {
     if (cells_.size() == most_cells) return;

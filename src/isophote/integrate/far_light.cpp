@@ -16,8 +16,6 @@ using Cell = IrradianceCells::Cell;
 constexpr float enough = 16;
 /// Samples of which some would have met what cuts their cell.
 constexpr std::uint32_t telling = 64;
-/// The chance with which a chain goes on beyond that.
-constexpr float survival = 0.7f;
 
 /// May something part a point of a cell from those of its samples? What cuts the plane that they lie in is met at once
 /// by some of many rays that start there.
@@ -32,13 +30,12 @@ bool open(const World& world, const Cell& cell, const Vec3& position, const Vec3
 }
 
 /// One sample of the irradiance at a point, with what it saw.
-Cell traced(const World& world, const FarLight& from, const SurfacePoint& point, int depth, Sampler& sampler,
-            RayCounts& counts) {
+Cell traced(const World& world, const FarLight& from, const SurfacePoint& point, int depth, float survival,
+            Sampler& sampler, RayCounts& counts) {
   Cell sample;
   sample.count = 1, sample.position = point.position, sample.normal = point.shading_normal;
   const Vec2 u = sampler.next2();
-  const float chance = depth > sure_depth ? survival : 1;
-  if (!(sampler.next() < chance)) return sample;
+  if (!(sampler.next() < survival)) return sample;
   const Vec3 direction = Frame(point.shading_normal).to_world(cosine_hemisphere(u));
   if (!(dot(direction, point.geometric_normal) > 0)) return sample;
   const FirstPoint hit =
@@ -50,14 +47,14 @@ Cell traced(const World& world, const FarLight& from, const SurfacePoint& point,
     radiance += hit.throughput * (light.direct + light.indirect);
   }
   sample.nearest = hit.first_distance;
-  sample.sum = radiance * (pi / chance);
+  sample.sum = radiance * (pi / survival);
   return sample;
 }
 
 }  // namespace
 
 Rgb cell_irradiance(const World& world, const FarLight& from, const SurfacePoint& point, float distance, int depth,
-                    Sampler& sampler, RayCounts& counts) {
+                    float survival, Sampler& sampler, RayCounts& counts) {
   const std::uint64_t key = from.cells->key(point.position, point.shading_normal, distance);
   const Cell* const known = from.cells->find(key);
   const Cell* const own = from.left->find(key);
@@ -65,14 +62,14 @@ Rgb cell_irradiance(const World& world, const FarLight& from, const SurfacePoint
   if (like && unsure(*from.cells, *like, point.position) &&
       !open(world, *like, point.position, point.shading_normal, counts)) {
     from.left->add({.key = key, .cut = true});
-    return traced(world, from, point, depth, sampler, counts).sum;
+    return traced(world, from, point, depth, survival, sampler, counts).sum;
   }
   Rgb sum;
   float count = 0, weight = 0;
   for (const Cell* const cell : {known, own})
     if (cell) sum += cell->sum, weight += cell->weight, count += static_cast<float>(cell->count);
   if (count > 0 && sampler.next() * count >= enough) return sum / weight;
-  Cell sample = traced(world, from, point, depth, sampler, counts);
+  Cell sample = traced(world, from, point, depth, survival, sampler, counts);
   const Rgb irradiance = sample.sum;
   sample.key = key, sample.weight = 1 + count, sample.sum = irradiance * sample.weight;
   from.left->add(sample);

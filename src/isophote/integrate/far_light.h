@@ -16,15 +16,13 @@ struct FarLight {
   bool none() const { return !records && !cells; }
 };
 
-/// Beyond so many scattering events chains of samples go on by chance. Those that end leave a sample of no light, which
-/// those that go on make up for.
-inline constexpr int sure_depth = 3;
-
 /// Irradiance at a point, about its interpolated normal, by the samples in its cell: their mean where there are enough,
 /// else one more, which goes on by the same rule at what it hits. Its expectation is the irradiance, averaged over the
-/// cell. `distance` is that of the ray that met the point, `depth` counts the scattering events before it.
+/// cell. `distance` is that of the ray that met the point, `depth` counts the scattering events before it, and
+/// `survival` is the chance, above 0, with which a sample is taken: those that are not count as no light, which the
+/// others make up for.
 Rgb cell_irradiance(const World& world, const FarLight& from, const SurfacePoint& point, float distance, int depth,
-                    Sampler& sampler, RayCounts& counts);
+                    float survival, Sampler& sampler, RayCounts& counts);
 
 /// Adds to `cells` what several readers of them left, in their order.
 void take_in(const World& world, IrradianceCells& cells, std::span<const IrradianceCells> left, RayCounts& counts);

@@ -27,6 +27,7 @@ BuildReport refine(const Job& asked, RecordCache& cache, std::span<const Place> 
   Job job = asked;
   BuildReport report;
   // With more rays Hessians are less noisy, and say less of what the mean error is.
+  job.method.secondary = seed_cells(job, cache, report.rays).chosen;
   if (wants_survey(job.method)) job.pilot = survey(job, cache, random_places(job, report.rays), report.rays).pilot;
   std::vector<Record> records(cache.records().begin(), cache.records().end());
   for (std::size_t from = 0; from < places.size(); from += between_stops) {

@@ -8,17 +8,35 @@
 namespace isophote {
 namespace {
 
+/// Chances with which the lobes of a point go on.
+struct Odds {
+  float diffuse = 1, glossy = 1;
+};
+
+/// Where chains of cell samples are long, they end by chance. By how much each lobe scatters, so that what goes on is
+/// not brighter for it; and both together go on less than once, or chains would branch without end.
+Odds chain_odds(const SurfacePoint& point, const Vec3& wo, int depth) {
+  constexpr int sure_depth = 3;
+  constexpr float least = 0.1f;  // of a lobe, for a cell is read where other lobes may be larger
+  if (depth <= sure_depth) return {};
+  const float diffuse = max_component(diffuse_albedo(point.bsdf, wo));
+  const float glossy =
+      point.bsdf.has_glossy() ? max_component(specular_albedo(point.bsdf, dot(wo, point.bsdf.frame.n))) : 0;
+  const float both = diffuse + glossy;
+  if (!(both > 0)) return {least, least};
+  const float chance = std::clamp(both, 0.5f, 0.9f) / both;
+  return {std::max(chance * diffuse, least), std::max(chance * glossy, least)};
+}
+
 /// The chance with which a glossy ray is followed: always from the camera, by what it can bring further on, and after
-/// some events never surely, or paths between bright metals would not end. Where the diffuse lobe goes on as well, deep
-/// down it is so small that both together have less than one ray to follow: they would branch without end.
+/// some events never surely, or paths between bright metals would not end.
 float glossy_chance(const FarLight& from, const SurfacePoint& point, const Vec3& wo, const Rgb& throughput, int depth,
                     int events) {
   constexpr int sure_events = 3;
-  constexpr float of_both = 0.2f;
   if (depth == 0) return 1;
-  if (from.cells && depth > sure_depth && point.bsdf.has_diffuse()) return of_both;
   const Rgb albedo = specular_albedo(point.bsdf, dot(wo, point.bsdf.frame.n));
-  return std::clamp(4 * max_component(throughput * albedo), 0.1f, events < sure_events ? 1.0f : 0.95f);
+  const float by_light = std::clamp(4 * max_component(throughput * albedo), 0.1f, events < sure_events ? 1.0f : 0.95f);
+  return from.cells && point.bsdf.has_diffuse() ? std::min(by_light, chain_odds(point, wo, depth).glossy) : by_light;
 }
 
 /// What leaves one point towards `wo`: of all lobes where a path took over (`whole`), else of the diffuse lobe.
@@ -37,7 +55,9 @@ Left shade_without_glossy(const World& world, const FarLight& from, const Surfac
   if (!point.bsdf.has_diffuse()) return {};
   std::optional<Rgb> irradiance;
   if (from.records) irradiance = from.records->interpolate(query_at(point), LeakTest{world, counts});
-  if (!irradiance && from.cells) irradiance = cell_irradiance(world, from, point, distance, depth, sampler, counts);
+  if (!irradiance && from.cells)
+    irradiance =
+        cell_irradiance(world, from, point, distance, depth, chain_odds(point, wo, depth).diffuse, sampler, counts);
   if (!irradiance) return path(false);
   return {{direct_diffuse(world, point, wo, sampler, counts), diffuse_albedo(point.bsdf, wo) * *irradiance / pi,
            *irradiance, true}};

@@ -13,8 +13,7 @@ struct RadiusBounds {
   float min_pixels = 0;  ///< [Tabellion, Lamorlette 2004], on the used radius
   float max_pixels = std::numeric_limits<float>::infinity();
   float min_view = 0;  ///< times the threshold, in heights of the picture: a floor of any resolution
-  float max_view = std::numeric_limits<float>::infinity();  ///< heights of the picture: no blotch is larger, nothing is
-                                                            ///< missed at large
+  float max_view = std::numeric_limits<float>::infinity();  ///< heights of the picture
   float min_length = 0;                                     ///< scene units, on the used radius
   float max_length = std::numeric_limits<float>::infinity();
   bool gradient = false;  ///< R <= E / |grad E|, on the unscaled radius, for the channel that changes most
