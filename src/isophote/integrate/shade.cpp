@@ -17,15 +17,15 @@ struct Odds {
 /// not brighter for it; and both together go on less than once, or chains would branch without end.
 Odds chain_odds(const SurfacePoint& point, const Vec3& wo, int depth) {
   constexpr int sure_depth = 3;
-  constexpr float least = 0.1f;  // of a lobe, for a cell is read where other lobes may be larger
+  constexpr float least = 0.1f;  // of the diffuse lobe, whose sample others read, where it may weigh more
   if (depth <= sure_depth) return {};
   const float diffuse = max_component(diffuse_albedo(point.bsdf, wo));
   const float glossy =
       point.bsdf.has_glossy() ? max_component(specular_albedo(point.bsdf, dot(wo, point.bsdf.frame.n))) : 0;
   const float both = diffuse + glossy;
-  if (!(both > 0)) return {least, least};
+  if (!(both > 0)) return {least, 0};
   const float chance = std::clamp(both, 0.5f, 0.9f) / both;
-  return {std::max(chance * diffuse, least), std::max(chance * glossy, least)};
+  return {std::max(chance * diffuse, least), chance * glossy};
 }
 
 /// The chance with which a glossy ray is followed: always from the camera, by what it can bring further on, and after
