@@ -7,6 +7,8 @@ PATH_SAMPLES = (16, 64)
 SEEDS = {"cornell-box": range(1, 9), "atrium": range(1, 4)}
 # What is asked of `cached`; of it without its parts; and the thresholds and rays of `bounded`, along the lower envelope of its error over cost.
 ERRORS = {"cornell-box": (0.1, 0.05, 0.03, 0.02, 0.01, 0.005), "atrium": (0.2, 0.1, 0.05, 0.03, 0.02)}
+# Smaller footprints than the default's, for what an error near 1 % costs where the default's systematic part is larger than that.
+FINER = {"cornell-box": (), "atrium": (("--error", 0.015, "--max-view", 0.01, "--min-pixels", 1),)}
 PARTS_AT = {"cornell-box": (0.05, 0.02), "atrium": (0.1, 0.05)}
 WITHOUT = {"cached, no regression": ("--regress", "off"), "cached, no cells": ("--secondary", "off"),
            "cached, neither": ("--regress", "off", "--secondary", "off")}
@@ -22,6 +24,7 @@ def cached_points(view):
     """(method, what it was told, what came of it)"""
     flags = ("--spp", SAMPLES)
     points = [("cached", f"error {e}", Measured(view, SEEDS[view.name], "--error", e, *flags)) for e in ERRORS[view.name]]
+    points += [("cached", " ".join(str(word).lstrip("-") for word in finer), Measured(view, SEEDS[view.name], *finer, *flags)) for finer in FINER[view.name]]
     points += [(name, f"error {e}", Measured(view, SEEDS[view.name], "--error", e, *without, *flags))
                for e in PARTS_AT[view.name] for name, without in WITHOUT.items()]
     points += [("bounded", f"a = {a}, {rays} rays", Measured(view, (12,), "--method", "bounded", "--a", a, "--rays", rays, *flags))
