@@ -59,6 +59,28 @@ class AnalyticRoom {
     return {-weighted({x, y, 0}, {0, 0, 1}, {0, 1, 0}), weighted({x, y, 0}, {0, 0, 1}, {1, 0, 0}), 0};
   }
 
+  /// The integral of radiance times weight(w) over the directions w above the floor.
+  template <class Weight>
+  double integral(double x, double y, const Weight& weight) const {
+    const Vec3d at{x, y, 0}, up{0, 0, 1};
+    const auto from = [&](const Panel& panel, const Polygon& seen) {
+      return gauss_integral(at, up, seen, [&](const Vec3d& p) {
+        const Vec3d w = normalize(p - at);
+        return panel.radiance(p, constant_) * weight(w) / w.z;  // without the cosine that it has
+      });
+    };
+    double sum = 0;
+    for (const Panel& wall : walls_) {
+      Polygon seen = clip(wall.corners(), at, up);
+      sum += from(wall, seen);
+      if (!has_rectangle_) continue;
+      for (const Vec3d& side : shadow_sides(at)) seen = clip(seen, at, side);
+      sum -= from(wall, seen);
+    }
+    if (has_rectangle_) sum += from(rectangle_, rectangle_.corners());
+    return sum;
+  }
+
  private:
   /// A rectangle of radiance base (1 + swing sin(fu s + pu) cos(fv t)) at origin + s u + t v.
   struct Panel {

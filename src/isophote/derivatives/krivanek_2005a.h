@@ -1,7 +1,6 @@
 #pragma once
 
-#include "isophote/derivatives/gather.h"
-#include "isophote/derivatives/jet.h"
+#include "isophote/derivatives/incident_radiance.h"
 
 namespace isophote {
 
@@ -9,5 +8,8 @@ namespace isophote {
 /// for a small piece of the surface it met, seen by the moving record as if nothing ever came between. Unaware of
 /// occlusion.
 Jet<Rgb> krivanek_2005a(const HemisphereGather& gather);
+
+/// Incident radiance with its gradient by the same pieces.
+RadianceJet krivanek_2005a(const HemisphereGather& gather, Basis basis, int order);
 
 }  // namespace isophote

@@ -5,6 +5,7 @@
 #include "isophote/core/check.h"
 #include "isophote/derivatives/standard_error.h"
 #include "isophote/derivatives/tangent.h"
+#include "isophote/derivatives/wall_step.h"
 
 namespace isophote {
 namespace {
@@ -57,11 +58,8 @@ float inverse_distance(const GatherSample& p, const GatherSample& q, WallDistanc
   return distance == WallDistance::harmonic && one_surface(p, q) ? (a + b) / 2 : std::max(a, b);
 }
 
-/// The radiance step from `from` to `to` over the wall between them, over the wall's distance: across a step the nearer
-/// surface covers and uncovers the other. Between two samples of the sky nothing moves.
 Rgbd step(const GatherSample& from, const GatherSample& to, WallDistance distance) {
-  if (from.surface == GatherSample::own_surface || to.surface == GatherSample::own_surface) return {};
-  return (Rgbd(to.radiance) - Rgbd(from.radiance)) * static_cast<double>(inverse_distance(from, to, distance));
+  return wall_step(from, to, inverse_distance(from, to, distance));
 }
 
 Gradient<Rgb> translational_gradient(const HemisphereGather& gather, WallDistance distance) {
