@@ -14,7 +14,7 @@ GROUPS = (
     ("light sampling", r"Emitters|light_transmittance|shadow_ray|through_sheets|PunctualLights|Environment|NearGrid|AliasTable|Distribution|sample_light|FewChoice|lamp|solid_angle|spherical_triangle"),
     ("reading the cache", r"RecordCache|interpolate|footprint|Octree|visit|serving_error|standing|open_between"),
     ("gradients and radii", r"ward_heckbert|swept|Gradient|split_sphere|settle|limit_extrapolation|NeighbourIndex|obstacles|standard_error"),
-    ("paths: lobes, sampling, weights", r"scatter|follow|first_point|direct_diffuse|glossy|shade|sample_diffuse|Sampler|trace_on|gather"),
+    ("paths: lobes, sampling, weights", r"scatter|follow|first_point|direct_light|glossy|shade|sample_diffuse|Sampler|trace_on|gather"),
 )
 
 

@@ -170,7 +170,7 @@ int run(const char* path, int repeats) {
     const std::vector<Place> places = random_places(so_far, counts);
     for (const Place& place : places) {
       left.clear();
-      sink += make_record(so_far, cache, place, scratch, left, counts).jet.value.r;
+      sink += make_records(so_far, cache, place, scratch, left, counts).irradiance->jet.value.r;
     }
     return places.size();
   };

@@ -182,7 +182,7 @@ TEST(OpenTest, IsAskedOfRecordsThatServeBeyondWhatTheySawAlone) {
   cache.insert(wary);
   cache.insert(round_record({1, 1.5f, 0}, up, 1));  // saw nothing near
   int asked = 0;
-  const auto open = [&](const Record& record, const Query& q) {
+  const auto open = [&](const Site& record, const Query& q) {
     EXPECT_EQ(record.position, wary.position);
     EXPECT_GT(length(q.position - record.position), 0.39f);
     ++asked;
@@ -205,7 +205,7 @@ TEST(OpenTest, IsAskedOfRecordsThatServeBeyondWhatTheySawAlone) {
 TEST(OpenTest, WhatItRefusesDoesNotServe) {
   RecordCache cache(room);
   cache.insert(wary_record({1, 1, 0}, 1, 0.2f, 5));
-  const auto wall = [](const Record& record, const Query& q) {
+  const auto wall = [](const Site& record, const Query& q) {
     return (record.position.x < 1.5f) == (q.position.x < 1.5f);
   };
   const Query before = query({1.4f, 1, 0}, up), behind = query({1.6f, 1, 0}, up);

@@ -132,7 +132,7 @@ TEST(Regression, DoesNotReachBehindAnything) {
     for (int s = 0; s < Obstacles::sectors; ++s) r.jet.distances.obstacles.meet(s, std::abs(p.x));
     cache.insert(r);
   }
-  const auto same_side = [](const Record& a, const Query& b) { return (a.position.x < 0) == (b.position.x < 0); };
+  const auto same_side = [](const Site& a, const Query& b) { return (a.position.x < 0) == (b.position.x < 0); };
   const auto largest_change = [&](OpenTest open) {
     double largest = 0;
     for_each_fitted(

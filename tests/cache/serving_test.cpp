@@ -74,7 +74,7 @@ TEST(Standing, Reasons) {
   EXPECT_EQ(of({1.2f, 1, 1}, -up), Standing::facing_away);
   EXPECT_EQ(of({1.2f, 1, 0.8f}, up), Standing::in_front);
   EXPECT_EQ(of({1.2f, 1, 1}, normalize(Vec3{1, 0, 1})), Standing::turned);
-  const auto closed = [](const Record&, const Query&) { return false; };
+  const auto closed = [](const Site&, const Query&) { return false; };
   EXPECT_EQ(of({1.2f, 1, 1}, up, closed), Standing::serves);  // nothing near was seen: nobody asks
   for (int sector = 0; sector < Obstacles::sectors; ++sector) r.jet.distances.obstacles.meet(sector, 0.1f);
   EXPECT_EQ(of({1.2f, 1, 1}, up, closed), Standing::blocked);

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
-#include <utility>
 #include <vector>
 
 #include "isophote/core/vec.h"
+#include "isophote/harmonics/quadrature.h"
 
 namespace isophote::test {
 
@@ -40,33 +38,11 @@ inline double lambert_integral(const Vec3d& x, const Vec3d& weight, const Polygo
   return dot(sum, weight) * (dot(sum, middle) < 0 ? -1 : 1);
 }
 
-/// Nodes and weights of Gauss's rule on [0, 1].
-struct GaussRule {
-  static constexpr int points = 10;
-  std::array<double, points> node{}, weight{};
-
-  GaussRule() {
-    for (int i = 0; i < points; ++i) {
-      double z = std::cos(std::numbers::pi * (i + 0.75) / (points + 0.5)), slope = 0;
-      for (int newton = 0; newton < 8; ++newton) {
-        double value = 1, before = 0;
-        for (int order = 1; order <= points; ++order)
-          before = std::exchange(value, ((2 * order - 1) * z * value - (order - 1) * before) / order);
-        slope = points * (z * value - before) / (z * z - 1);
-        z -= value / slope;
-      }
-      node[i] = (1 - z) / 2;
-      weight[i] = 1 / ((1 - z * z) * slope * slope);
-    }
-  }
-};
-
 /// The integral over a triangle of radiance(y) weight . w cos / r^2, cut into four until no edge is longer than 0.8 of
 /// the distance.
 template <class Radiance>
 double triangle_integral(const Vec3d& x, const Vec3d& weight, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                          const Radiance& radiance) {
-  static const GaussRule gauss;
   const double longest = std::max({length(b - a), length(c - b), length(a - c)});
   const double nearest = std::min({length(a - x), length(b - x), length(c - x), length((a + b + c) / 3.0 - x)});
   if (longest > 0.8 * nearest) {
@@ -77,14 +53,14 @@ double triangle_integral(const Vec3d& x, const Vec3d& weight, const Vec3d& a, co
   // The unit square folded onto the triangle: y = a + s ((b - a) (1 - t) + (c - a) t), whose Jacobian is s |area|.
   const Vec3d area = cross(b - a, c - a);
   double sum = 0;
-  for (int i = 0; i < GaussRule::points; ++i) {
-    for (int k = 0; k < GaussRule::points; ++k) {
-      const double s = gauss.node[i], t = gauss.node[k];
+  const auto& gauss = GaussRule<10>::get();
+  gauss.integrate(0, 1, [&](double s, double weight_s) {
+    gauss.integrate(0, 1, [&](double t, double weight_t) {
       const Vec3d y = a + ((b - a) * (1 - t) + (c - a) * t) * s, d = y - x;
       const double r2 = length_squared(d);
-      sum += gauss.weight[i] * gauss.weight[k] * s * radiance(y) * dot(weight, d) * std::abs(dot(area, d)) / (r2 * r2);
-    }
-  }
+      sum += weight_s * weight_t * s * radiance(y) * dot(weight, d) * std::abs(dot(area, d)) / (r2 * r2);
+    });
+  });
   return sum;
 }
 

@@ -48,7 +48,7 @@ TEST(DirectLight, PunctualLightsAreExact) {
   EXPECT_NEAR(s.direct.r, 0.8f / pi * e, 1e-6);
   EXPECT_NEAR(s.direct.g, 0.4f / pi * e / 2, 1e-6);
   EXPECT_TRUE(is_black(s.indirect));
-  EXPECT_NEAR(direct_diffuse(stage.world, point, {0, 1, 0}, sampler, stage.counts).r, 0.8f / pi * e, 1e-6);
+  EXPECT_NEAR(direct_light(stage.world, point, {0, 1, 0}, false, sampler, stage.counts).r, 0.8f / pi * e, 1e-6);
 }
 
 TEST(DirectLight, DirectionalLightIsExactAndShadowed) {
@@ -75,7 +75,7 @@ struct DirectLight {
     for (int i = 0; i < samples; ++i) {
       Sampler a = test_sampler(1, i), b = test_sampler(2, i);
       whole.add(scatter(stage.world, point, wo, 0, a, stage.counts).direct.g);
-      const double d = direct_diffuse(stage.world, point, wo, b, stage.counts).g;
+      const double d = direct_light(stage.world, point, wo, false, b, stage.counts).g;
       parts.add(d + glossy_ray(stage.world, point, wo, b, stage.counts).direct.g);
     }
   }
@@ -123,7 +123,7 @@ TEST(DirectLight, LampMatchesItsFormFactor) {
     for (int i = 0; i < 40000; ++i) {
       Sampler a = test_sampler(1, i), b = test_sampler(2, i);
       all.add(scatter(stage.world, point, {0, 1, 0}, 0, a, stage.counts).direct.g);
-      diffuse.add(direct_diffuse(stage.world, point, {0, 1, 0}, b, stage.counts).g);
+      diffuse.add(direct_light(stage.world, point, {0, 1, 0}, false, b, stage.counts).g);
     }
     const double truth = 0.5 / M_PI * lamp_irradiance(height);
     expect_mean(all, truth, 0.01);

@@ -25,7 +25,7 @@ TEST(DirectLight, ALampUpCloseIsNotNoisyBesideAStrongHiddenOne) {
     constexpr int samples = 10000;
     for (int i = 0; i < samples; ++i) {
       Sampler sampler = test_sampler(1, i);
-      light.add(direct_diffuse(stage.world, point, {0, 1, 0}, sampler, stage.counts).g);
+      light.add(direct_light(stage.world, point, {0, 1, 0}, false, sampler, stage.counts).g);
     }
     EXPECT_LT(light.standard_error() * std::sqrt(static_cast<double>(samples)), 0.8 * light.mean()) << height;
     EXPECT_GT(light.mean(), 0.5 * 0.5 * 3) << height;

@@ -169,7 +169,7 @@ TEST(Shadow, PunctualLightComesThroughPanes) {
     const SurfacePoint point = stage.hit({0, 1e-3f, 0}, {0, -1, 0});
     Sampler sampler = test_sampler(1, 0);
     const float value = scatter(stage.world, point, {0, 1, 0}, 0, sampler, stage.counts).direct.g;
-    EXPECT_NEAR(direct_diffuse(stage.world, point, {0, 1, 0}, sampler, stage.counts).g, value, 1e-5f * value);
+    EXPECT_NEAR(direct_light(stage.world, point, {0, 1, 0}, false, sampler, stage.counts).g, value, 1e-5f * value);
     return value;
   };
   EXPECT_NEAR(direct(scene), bare * through, 1e-5 * bare);
@@ -248,7 +248,7 @@ TEST(Absorption, DimsALampInsideForEveryTechnique) {
   for (int i = 0; i < 40000; ++i) {
     Sampler a = test_sampler(1, i), b = test_sampler(2, i);
     all.add(scatter(stage.world, point, {0, 1, 0}, 0, a, stage.counts).direct.g);
-    diffuse.add(direct_diffuse(stage.world, point, {0, 1, 0}, b, stage.counts).g);
+    diffuse.add(direct_light(stage.world, point, {0, 1, 0}, false, b, stage.counts).g);
   }
   expect_mean(all, floor_albedo * 3 * absorbed, 0.01);
   expect_mean(diffuse, floor_albedo * 3 * absorbed, 0.01);

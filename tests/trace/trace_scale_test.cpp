@@ -61,7 +61,7 @@ std::vector<Rgb> render(float s) {
         const Vec3 wo = -first.direction;
         const Scattered scattered = scatter(stage.world, *first.point, wo, first.depth, sampler, stage.counts);
         for (const Rgb& v : {scattered.direct, scattered.indirect, scattered.irradiance}) values.push_back(v);
-        values.push_back(direct_diffuse(stage.world, *first.point, wo, sampler, stage.counts));
+        values.push_back(direct_light(stage.world, *first.point, wo, false, sampler, stage.counts));
         const GlossyRay glossy = glossy_ray(stage.world, *first.point, wo, sampler, stage.counts);
         for (const Rgb& v : {glossy.direct, glossy.weight, glossy.next.emission, glossy.next.throughput})
           values.push_back(v);

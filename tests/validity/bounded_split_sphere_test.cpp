@@ -21,7 +21,7 @@ float radius(const Jet<Rgb>& jet, const RadiusBounds& bounds, const View& v = vi
 
 TEST(BoundedSplitSphere, WithoutBoundsIsSplitSphereWithATent) {
   const Footprint bounded = bounded_split_sphere(jet_of(2), view, a, {});
-  const Footprint plain = split_sphere(jet_of(2), view, a);
+  const Footprint plain = split_sphere(jet_of(2).distances, view, a);
   EXPECT_FLOAT_EQ(bounded.radius, plain.radius);
   EXPECT_FLOAT_EQ(bounded.shape.xx, plain.shape.xx);
   EXPECT_EQ(bounded.normal_scale, plain.normal_scale);

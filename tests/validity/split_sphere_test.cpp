@@ -32,7 +32,7 @@ TEST(SplitSphere, IsThePublishedError) {
   for (int i = 0; i < 10000; ++i) {
     const float r = random.number(0.1f, 10), a = random.number(0.05f, 0.5f);
     const double d = random.number(0, 1) * r * a, angle = random.number(0, 1) * a;
-    const Footprint f = split_sphere(jet_at(r), {.pixel = 0.01f, .scene_scale = 100}, a);
+    const Footprint f = split_sphere(jet_at(r).distances, {.pixel = 0.01f, .scene_scale = 100}, a);
     const double eps = 4 / std::numbers::pi * d / r + std::sqrt(1 - std::cos(angle));
     EXPECT_NEAR(error(f, d, angle), eps / a, 1e-5);
     inside += eps < a;
@@ -44,13 +44,13 @@ TEST(SplitSphere, IsThePublishedError) {
 }
 
 TEST(SplitSphere, RadiusIsWhereDistanceAloneReachesA) {
-  const Footprint f = split_sphere(jet_at(2), {.pixel = 0.01f, .scene_scale = 100}, 0.2f);
+  const Footprint f = split_sphere(jet_at(2).distances, {.pixel = 0.01f, .scene_scale = 100}, 0.2f);
   EXPECT_FLOAT_EQ(f.radius, 2 * 0.2f * std::numbers::pi_v<float> / 4);
   EXPECT_NEAR(error(f, f.radius, 0), 1, 1e-6);
 }
 
 TEST(SplitSphere, UnderAnOpenSkyTheSceneIsTheDistance) {
-  const Footprint f = split_sphere(jet_at(infinite), {.pixel = 0.01f, .scene_scale = 8}, 0.2f);
+  const Footprint f = split_sphere(jet_at(infinite).distances, {.pixel = 0.01f, .scene_scale = 8}, 0.2f);
   EXPECT_FLOAT_EQ(f.radius, split_sphere_radius(8, 0.2f));
   EXPECT_EQ(f.unscaled, 8);
 }

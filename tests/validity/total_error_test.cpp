@@ -155,7 +155,7 @@ TEST(LipschitzClamping, HoldsForEveryPair) {
   NeighbourIndex neighbours({{0, 0, 0}, {4, 4, 1}});
   for (std::uint32_t i = 0; i < 300; ++i) {
     records.push_back(round_record(random.point({0, 0, 0}, {4, 4, 1}), up, std::pow(10.0f, random.number(-2, 0.5f))));
-    settle({records, neighbours}, {&i, 1}, {.slope = 0.5f});
+    settle(Settling{records, neighbours}, {&i, 1}, {.slope = 0.5f});
   }
   for (const Record& a : records)
     for (const Record& b : records)
@@ -173,7 +173,7 @@ TEST(TotalError, ARaisedEllipseStaysAnEllipse) {
     record.footprint.smallest = 2, record.footprint.unscaled = natural;
     NeighbourIndex neighbours({{-1, -1, -1}, {1, 1, 1}});
     const std::uint32_t id = 0;
-    for (int twice = 0; twice < 2; ++twice) settle({{&record, 1}, neighbours}, {&id, 1}, {});
+    for (int twice = 0; twice < 2; ++twice) settle(Settling{{&record, 1}, neighbours}, {&id, 1}, {});
     EXPECT_FLOAT_EQ(quadratic_form(record.footprint.shape, Vec3{2, 0, 0}), 1);
     EXPECT_FLOAT_EQ(quadratic_form(record.footprint.shape, Vec3{0, 1, 0}), 1);
     const float height = std::min(1.0f, std::max(natural, 0.5f));

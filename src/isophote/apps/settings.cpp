@@ -56,6 +56,18 @@ Secondary secondary(const std::string& text) {
   throw UsageError(fmt::format("wants off, cells, records or auto, not '{}'", text));
 }
 
+Glossy glossy(const std::string& text) {
+  for (const Glossy g : {Glossy::rays, Glossy::cache, Glossy::automatic})
+    if (text == name_of(g)) return g;
+  throw UsageError(fmt::format("wants cache, rays or auto, not '{}'", text));
+}
+
+Basis basis(const std::string& text) {
+  for (const Basis b : {Basis::spherical, Basis::hemispherical})
+    if (text == name_of(b)) return b;
+  throw UsageError(fmt::format("wants spherical or hemispherical, not '{}'", text));
+}
+
 using S = RenderSettings;  // the two parameter types of every line below
 using T = const std::string&;
 
@@ -98,6 +110,18 @@ constexpr Option table[] = {
     {"method", "regress", "on|off",
      "is each record fitted to what its neighbours say of it, once all are made? (method cached: on)",
      [](S& s, T t) { s.regress = on_off(t); }, true},
+    {"method", "glossy", "cache|rays|auto",
+     "what glossy lobes reflect: records of incident radiance; what a ray meets; auto: records where the surface is "
+     "rough enough (methods cached, krivanek2005a and krivanek2005b: auto, others: rays)",
+     [](S& s, T t) { s.glossy = glossy(t); }, true},
+    {"method", "glossy-estimator", "NAME", "another estimator of incident radiance than the method's",
+     [](S& s, T t) { s.glossy_estimator = find_radiance_estimator(t).name; }, true},
+    {"method", "glossy-metric", "NAME", "another metric for records of incident radiance than the method's",
+     [](S& s, T t) { s.glossy_metric = find_metric(t).name; }, true},
+    {"method", "glossy-a", "A", "threshold of that metric (default: by --error, or else --a)",
+     [](S& s, T t) { s.glossy_a = number<float>(t, least_threshold, greatest_threshold); }, true},
+    {"method", "glossy-basis", "spherical|hemispherical",
+     "harmonics that hold incident radiance (default: hemispherical)", [](S& s, T t) { s.basis = basis(t); }, true},
     {"method", "max-depth", "N", "scattering events after the camera; 1 is direct light (default: no limit)",
      [](S& s, T t) { s.max_depth = number<int>(t, 1, 1 << 30); }},
     {"method", "order", "rounds|lazy", "how the cache is built (default: rounds)",
@@ -147,6 +171,27 @@ void check_order(const RadiusBounds& b) {
   };
   check("pixels", b.min_pixels, b.max_pixels);
   check("radius", b.min_length, b.max_length);
+}
+
+GlossyMethod chosen_glossy(const RenderSettings& s, const Method& method) {
+  GlossyMethod glossy = method.glossy;
+  // For those that cache no radiance of their own, as method cached does.
+  if (!glossy.caches() && s.glossy.value_or(Glossy::rays) != Glossy::rays) glossy = find_method("cached").glossy;
+  glossy.from = s.glossy.value_or(glossy.from);
+  if (!s.glossy_estimator.empty()) glossy.estimator = &find_radiance_estimator(s.glossy_estimator);
+  if (!s.glossy_metric.empty()) glossy.metric = &find_metric(s.glossy_metric);
+  glossy.basis = s.basis.value_or(glossy.basis);
+  if (!glossy.caches()) {
+    if (!s.glossy_estimator.empty() || !s.glossy_metric.empty() || s.glossy_a || s.basis)
+      throw UsageError("--glossy-... is about records of incident radiance: it takes --glossy cache or auto");
+    return glossy;
+  }
+  if (!glossy.metric->measure_radiance)
+    throw UsageError(fmt::format("--glossy-metric {}: this metric is for irradiance alone", glossy.metric->name));
+  glossy.settings.a = s.glossy_a ? *s.glossy_a
+                      : s.a      ? *s.a
+                                 : threshold(*glossy.metric, s.error.value_or(default_error));
+  return glossy;
 }
 
 }  // namespace
@@ -214,6 +259,7 @@ Method chosen_method(const RenderSettings& s) {
   if (method.regress && !method.estimator->gradient_error)
     throw UsageError(fmt::format("--regress on needs gradients and their errors, which estimator '{}' does not give",
                                  method.estimator->name));
+  method.glossy = chosen_glossy(s, method);
   check_combination(method);
   return method;
 }

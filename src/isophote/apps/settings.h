@@ -12,7 +12,7 @@ namespace isophote::app {
 
 /// Everything `render` can be told, with its defaults. Flags and scene files write here through one table.
 struct RenderSettings {
-  std::string method = "cached", estimator, metric;
+  std::string method = "cached", estimator, metric, glossy_estimator, glossy_metric;
   std::optional<int> width, height;
   std::string camera;
   int samples = 16;
@@ -22,6 +22,9 @@ struct RenderSettings {
   std::optional<int> max_depth, records;
   std::optional<Secondary> secondary;
   std::optional<bool> leak_test, regress;
+  std::optional<Glossy> glossy;
+  std::optional<float> glossy_a;
+  std::optional<Basis> basis;
   bool lazy = false;
   std::optional<float> min_pixels, max_pixels, min_view, max_view, min_radius, max_radius;
   std::optional<bool> bound_gradient;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -41,6 +42,18 @@ Json parameters(const Statistics& s) {
           {"regress", s.regress}};
 }
 
+Json glossy_records(const Statistics::GlossyRecords& g) {
+  return {{"from", name_of(g.method.from)},
+          {"estimator", g.method.estimator->name},
+          {"metric", g.method.metric->name},
+          {"basis", name_of(g.method.basis)},
+          {"a", g.method.settings.a},
+          {"records", g.records},
+          {"bands_in_the_mean", g.bands},
+          {"rays_in_the_mean", g.rays},
+          {"bytes", g.bytes}};
+}
+
 /// What gather rays read where they hit, and why.
 std::string describe_secondary(const Statistics& s) {
   std::string text(name_of(s.seeding.chosen));
@@ -63,6 +76,16 @@ Json measured(const MeasuredError& error, const std::optional<double>& asked) {
 
 }  // namespace
 
+void Statistics::GlossyRecords::take(const GlossyMethod& by, const RadianceCache& cache) {
+  method = by, records = cache.records().size();
+  for (const RadianceRecord& r : cache.records()) {
+    const auto& [u, v, none] = r.jet.translational;
+    bands += RadianceCache::bands(r), rays += r.jet.rays;
+    bytes += sizeof(r) + sizeof(Rgb) * (r.jet.value.size() + u.size() + v.size());
+  }
+  bands /= std::max<double>(1, static_cast<double>(records)), rays /= std::max<double>(1, static_cast<double>(records));
+}
+
 std::uint64_t Statistics::peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -81,6 +104,14 @@ void Statistics::print() const {
                leak_test ? "on" : "off", regress ? "on" : "off");
     fmt::print("  secondary  {}\n", describe_secondary(*this));
     fmt::print("  bounds     {}\n", bounds);
+    if (glossy && glossy->records > 0)
+      fmt::print(
+          "  glossy     {} records of radiance ({:.1f} {} bands and {:.0f} rays each in the mean, {:.1f} MB), a = "
+          "{:g}, "
+          "estimator {}, metric {}\n",
+          glossy->records, glossy->bands, name_of(glossy->method.basis), glossy->rays,
+          static_cast<double>(glossy->bytes) / 1e6, glossy->method.settings.a, glossy->method.estimator->name,
+          glossy->method.metric->name);
   }
   fmt::print(
       "  CPU        load {:.2f} s, build {:.2f} s, final {:.2f} s, check {:.2f} s; wall {:.2f} s on {} threads\n",
@@ -141,6 +172,7 @@ void Statistics::write_json(const std::string& path) const {
             {"cancelled", cancelled}};
   if (!estimator.empty()) {
     json["parameters"] = parameters(*this);
+    json["glossy"] = glossy ? glossy_records(*glossy) : Json(nullptr);
     json["error"] = measured(error, error_asked);
   }
   AtomicFile file(path);

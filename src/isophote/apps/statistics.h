@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "isophote/cache/radiance_cache.h"
 #include "isophote/integrate/check_points.h"
 #include "isophote/integrate/job.h"
 #include "isophote/integrate/pilot.h"
@@ -22,6 +23,15 @@ struct Statistics {
   int extrapolate = 0;
   double record_rays = 0;  ///< in the mean
   Strata strata;
+  /// Records of incident radiance.
+  struct GlossyRecords {
+    GlossyMethod method{};
+    std::size_t records = 0, bytes = 0;
+    double bands = 0, rays = 0;  ///< in the mean
+
+    void take(const GlossyMethod& method, const RadianceCache& cache);
+  };
+  std::optional<GlossyRecords> glossy;
   std::size_t records = 0, rounds = 0, triangles = 0;
   int passes = 0, refinements = 0;
   std::uint64_t uncovered = 0, samples = 0, seed = 0;

@@ -7,6 +7,7 @@
 #include "isophote/core/error.h"
 #include "isophote/derivatives/jarosz_2012.h"
 #include "isophote/derivatives/krivanek_2005a.h"
+#include "isophote/derivatives/krivanek_2005b.h"
 #include "isophote/derivatives/schwarzhaupt_2012.h"
 #include "isophote/derivatives/swept_edges.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
@@ -36,7 +37,16 @@ constexpr Estimator estimator_table[] = {
     {"swept-edges", "", "value, gradients, Hessian", 2, swept_edges, true},
 };
 
-void settle_by(const Settling& settling, std::span<const std::uint32_t> fresh, const MetricSettings& s, float scale) {
+constexpr RadianceEstimator radiance_table[] = {
+    {"radiance", "[Krivanek 2005a]", "value", 0, incident_radiance},
+    {"radiance-surface-area", "[Krivanek 2005a]", "value, gradient unaware of occlusion", 1,
+     [](const HemisphereGather& g, Basis basis, int bands) { return krivanek_2005a(g, basis, bands); }},
+    {"radiance-stratified", "[Krivanek 2005b]", "value, gradient", 1, krivanek_2005b},
+};
+
+template <class R>
+void settle_by(const SettlingOf<R>& settling, std::span<const std::uint32_t> fresh, const MetricSettings& s,
+               float scale) {
   settle(settling, fresh, {.scale = scale, .slope = s.bounds.neighbours});
 }
 
@@ -48,8 +58,10 @@ constexpr Metric metric_table[] = {
      .a_factor = 1.4f,
      .a_power = 0.5f,
      .measure = [](const Jet<Rgb>& jet, const View& view,
-                   const MetricSettings& s) { return split_sphere(jet, view, s.a); },
-     .scale = split_sphere_scale},
+                   const MetricSettings& s) { return split_sphere(jet.distances, view, s.a); },
+     .scale = split_sphere_scale,
+     .measure_radiance = [](const RadianceJet& jet, const View& view,
+                            const MetricSettings& s) { return split_sphere(jet.distances, view, s.a); }},
     {.name = "bounded-split-sphere",
      .paper = "[Krivanek 2006]",
      .bounded = true,
@@ -60,7 +72,11 @@ constexpr Metric metric_table[] = {
                    const MetricSettings& s) { return bounded_split_sphere(jet, view, s.a, s.bounds); },
      .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
                   const MetricSettings& s) { settle_by(settling, fresh, s, split_sphere_scale(s)); },
-     .scale = split_sphere_scale},
+     .scale = split_sphere_scale,
+     .measure_radiance = [](const RadianceJet& jet, const View& view,
+                            const MetricSettings& s) { return bounded_split_sphere(jet, view, s.a, s.bounds); },
+     .settle_radiance = [](const SettlingOf<RadianceRecord>& settling, std::span<const std::uint32_t> fresh,
+                           const MetricSettings& s) { settle_by(settling, fresh, s, split_sphere_scale(s)); }},
     {.name = "total-error",
      .paper = "[Jarosz 2012]",
      .bounded = true,
@@ -76,7 +92,9 @@ constexpr Metric metric_table[] = {
      .a_power = 0.5f,
      .measure = [](const Jet<Rgb>&, const View& view, const MetricSettings& s) { return uniform(view, s.a); },
      .settle = [](const Settling& settling, std::span<const std::uint32_t> fresh,
-                  const MetricSettings& s) { settle_by(settling, fresh, s, 1); }},
+                  const MetricSettings& s) { settle_by(settling, fresh, s, 1); },
+     .measure_radiance = [](const RadianceJet&, const View& view,
+                            const MetricSettings& s) { return uniform(view, s.a); }},
 };
 
 /// The row of a name, which must be there for this to compile.
@@ -89,15 +107,19 @@ consteval const auto& row(const Table& table, std::string_view name) {
 constexpr const Estimator &no_gradients = row(estimator_table, "irradiance"),
                           &classical = row(estimator_table, "ward-heckbert"),
                           &exact = row(estimator_table, "ward-heckbert-exact"),
+                          &pieces = row(estimator_table, "surface-area"),
                           &unaware = row(estimator_table, "surface-area-hessian"),
                           &triangulated = row(estimator_table, "triangulated"),
                           &swept = row(estimator_table, "swept-edges");
+constexpr const RadianceEstimator &radiance_unaware = row(radiance_table, "radiance-surface-area"),
+                                  &radiance_aware = row(radiance_table, "radiance-stratified");
 constexpr const Metric &split = row(metric_table, "split-sphere"), &bounded = row(metric_table, "bounded-split-sphere"),
                        &total = row(metric_table, "total-error"), &one_radius = row(metric_table, "uniform");
 
 constexpr float any_aspect = std::numeric_limits<float>::infinity();
 const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = 1};
 const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.08f, .max_view = 0.03f, .neighbours = 1};
+const RadiusBounds radiance_preset{.min_pixels = 1.5f, .max_view = 0.1f, .gradient = true, .neighbours = 1};
 const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = 1};
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.
@@ -112,6 +134,20 @@ const Method method_table[] = {
      &bounded,
      {.bounds = bounded_preset},
      1},
+    {.name = "krivanek2005a",
+     .paper = "[Krivanek 2005a]",
+     .summary = "split sphere, gradients in surface-area form, glossy lobes too",
+     .estimator = &pieces,
+     .metric = &split,
+     .order = 1,
+     .glossy = {Glossy::automatic, &radiance_unaware, &split}},
+    {.name = "krivanek2005b",
+     .paper = "[Krivanek 2005b]",
+     .summary = "split sphere, stratified gradients, glossy lobes too",
+     .estimator = &exact,
+     .metric = &split,
+     .order = 1,
+     .glossy = {Glossy::automatic, &radiance_aware, &split}},
     {"jarosz2012", "[Jarosz 2012]", "Hessian unaware of occlusion", &unaware, &total, {.bounds = safety}, 1},
     {"schwarzhaupt2012",
      "[Schwarzhaupt 2012]",
@@ -138,7 +174,8 @@ const Method method_table[] = {
      Secondary::automatic,
      true,
      true,
-     true},
+     true,
+     {Glossy::automatic, &radiance_aware, &bounded, {.bounds = radiance_preset}, Basis::hemispherical, 0.75f}},
 };
 
 template <class Table>
@@ -170,6 +207,20 @@ Record Method::make_record(const Vec3& position, const Vec3& normal, const Jet<R
   return record;
 }
 
+RadianceRecord Method::make_radiance_record(const HemisphereGather& gather, int bands, const View& view) const {
+  RadianceRecord record;
+  record.position = gather.position;
+  record.normal = gather.frame.n;
+  record.jet = glossy.estimator->estimate(gather, glossy.basis, bands);
+  if (!leak_test) record.jet.distances.obstacles = {};
+  record.footprint = glossy.metric->measure_radiance(record.jet, view, glossy.settings);
+  const float by_bands = std::pow(9.0f / static_cast<float>(bands), glossy.band_power);
+  record.footprint.unscaled *= by_bands;
+  record.footprint.resize(record.footprint.radius * by_bands);
+  record.footprint.order = static_cast<std::uint8_t>(std::min(order, glossy.estimator->order));
+  return record;
+}
+
 double Method::error() const { return std::pow(settings.a / metric->a_factor, 1 / metric->a_power); }
 
 float Method::noise() const {
@@ -181,6 +232,11 @@ float Method::noise() const {
 
 void Method::settle(const Settling& settling, std::span<const std::uint32_t> fresh) const {
   if (metric->settle && !fresh.empty()) metric->settle(settling, fresh, settings);
+}
+
+void Method::settle(const SettlingOf<RadianceRecord>& settling, std::span<const std::uint32_t> fresh) const {
+  if (glossy.metric->settle_radiance && !fresh.empty())
+    glossy.metric->settle_radiance(settling, fresh, glossy.settings);
 }
 
 ErrorModel Method::error_model() const {
@@ -196,12 +252,22 @@ std::string_view name_of(Secondary secondary) {
   return names[static_cast<int>(secondary)];
 }
 
+std::string_view name_of(Glossy glossy) {
+  constexpr std::string_view names[] = {"rays", "cache", "auto"};
+  return names[static_cast<int>(glossy)];
+}
+std::string_view name_of(Basis basis) { return basis == Basis::spherical ? "spherical" : "hemispherical"; }
+
+std::span<const RadianceEstimator> radiance_estimators() { return radiance_table; }
 std::span<const Estimator> estimators() { return estimator_table; }
 std::span<const Metric> metrics() { return metric_table; }
 std::span<const Method> methods() { return method_table; }
 
 Method find_method(std::string_view name) { return find(method_table, name, "method"); }
 const Estimator& find_estimator(std::string_view name) { return find(estimator_table, name, "estimator"); }
+const RadianceEstimator& find_radiance_estimator(std::string_view name) {
+  return find(radiance_table, name, "estimator of radiance");
+}
 const Metric& find_metric(std::string_view name) { return find(metric_table, name, "metric"); }
 
 float threshold(const Metric& metric, double error) {

@@ -28,6 +28,13 @@ struct Estimator {
   bool gradient_error = false;  ///< says how sure its gradient is, which regression weighs it by
 };
 
+/// An estimator of incident radiance as a function of direction.
+struct RadianceEstimator {
+  std::string_view name, paper, gives;
+  int order;  ///< 0: the value; 1: its translational gradient too
+  RadianceJet (*estimate)(const HemisphereGather&, Basis basis, int bands);
+};
+
 /// A metric of `validity/`: how far that can be trusted, and what records do to each other.
 struct Metric {
   std::string_view name{}, paper{};
@@ -41,6 +48,10 @@ struct Metric {
                  const MetricSettings&) = nullptr;  ///< null: nothing
   /// The radius that the metric alone gives, over the unscaled one; null: they are the same.
   float (*scale)(const MetricSettings&) = nullptr;
+  /// The same two for records of incident radiance; null: the metric is for irradiance alone.
+  Footprint (*measure_radiance)(const RadianceJet&, const View&, const MetricSettings&) = nullptr;
+  void (*settle_radiance)(const SettlingOf<RadianceRecord>&, std::span<const std::uint32_t> fresh,
+                          const MetricSettings&) = nullptr;
 };
 
 /// What gather rays read where they hit.
@@ -49,6 +60,27 @@ enum class Secondary : std::uint8_t {
   cells,      ///< means over the cells of a grid: irradiance_cells.h
   records,    ///< the records so far, and cells where they do not cover
   automatic,  ///< records or nothing, whichever a pilot finds to be better
+};
+
+/// What glossy lobes take the indirect light from that they reflect.
+enum class Glossy : std::uint8_t {
+  rays,       ///< a ray of the lobe, followed
+  cache,      ///< records of incident radiance, whatever the roughness
+  automatic,  ///< those where their bands hold the lobe, else a ray
+};
+
+/// How incident radiance is cached.
+struct GlossyMethod {
+  Glossy from = Glossy::rays;
+  const RadianceEstimator* estimator = nullptr;
+  const Metric* metric = nullptr;
+  MetricSettings settings{};
+  Basis basis = Basis::hemispherical;
+  /// The more bands, the faster coefficients change from place to place: a record of n has the metric's radius times
+  /// (9 / n)^this. 0: all have the metric's, as published.
+  float band_power = 0;
+
+  bool caches() const { return from != Glossy::rays; }
 };
 
 /// A named combination. `estimator` is null for the path-traced reference, which caches nothing.
@@ -63,6 +95,7 @@ struct Method {
   bool adaptive = false;   ///< each record gathers as many rays as its own noise needs
   bool leak_test = false;  ///< a record keeps what it saw near: see `serving_error`
   bool regress = false;    ///< records are fitted to their neighbours at the end: regression.h
+  GlossyMethod glossy{};
 
   bool caches() const { return estimator != nullptr; }
   /// The mean relative error that the threshold aims at; and the standard error of a record, relative to its value,
@@ -73,19 +106,26 @@ struct Method {
   /// Where what the estimator says is known already.
   Record make_record(const Vec3& position, const Vec3& normal, const Jet<Rgb>& jet, const View& view) const;
   void settle(const Settling& settling, std::span<const std::uint32_t> fresh) const;
+  /// A record of incident radiance in so many bands, by the glossy method.
+  RadianceRecord make_radiance_record(const HemisphereGather& gather, int bands, const View& view) const;
+  void settle(const SettlingOf<RadianceRecord>& settling, std::span<const std::uint32_t> fresh) const;
   /// What `predicted_error` wants to know of records made by this method.
   ErrorModel error_model() const;
 };
 
 std::string_view name_of(Secondary secondary);
+std::string_view name_of(Glossy glossy);
+std::string_view name_of(Basis basis);
 
 std::span<const Estimator> estimators();
+std::span<const RadianceEstimator> radiance_estimators();
 std::span<const Metric> metrics();
 std::span<const Method> methods();
 
 /// Throw UsageError with the known names where there is none of this name.
 Method find_method(std::string_view name);
 const Estimator& find_estimator(std::string_view name);
+const RadianceEstimator& find_radiance_estimator(std::string_view name);
 const Metric& find_metric(std::string_view name);
 
 /// Thresholds lie between these: with a greater one, a footprint would be larger than the distances it was derived

@@ -12,15 +12,15 @@ namespace {
 /// mean plane holds both points, so neighbours serve each other.
 constexpr float in_front = 0.05f;
 
-bool faces_away(const Record& record, const Vec3& normal) { return dot(normal, record.normal) <= 0; }
+bool faces_away(const Site& record, const Vec3& normal) { return dot(normal, record.normal) <= 0; }
 
-bool lies_in_front(const Record& record, const Vec3& q, const Vec3& normal) {
+bool lies_in_front(const Site& record, const Vec3& q, const Vec3& normal) {
   return dot(q, normal + record.normal) < -2 * in_front * record.footprint.radius;
 }
 
 }  // namespace
 
-float footprint_error(const Record& record, const Vec3& position, const Vec3& normal) {
+float footprint_error(const Site& record, const Vec3& position, const Vec3& normal) {
   const Vec3 q = position - record.position;
   const float distance = quadratic_form(record.footprint.shape, q);
   if (!(distance < 1)) return infinity;
@@ -40,44 +40,20 @@ Standing standing(const Record& record, const Query& query, OpenTest open) {
   return serving_error(record, query, open) < 1 ? Standing::serves : Standing::blocked;
 }
 
-float serving_error(const Record& record, const Query& query, OpenTest open) {
-  const float error = footprint_error(record, query.position, query.normal);
-  if (!(error < 1)) return error;
-  const bool unsure = record.jet.distances.obstacles.before(query.position - record.position, record.normal);
-  return unsure && !open(record, query) ? infinity : error;
-}
-
 float falloff_weight(Falloff falloff, float error) {
   return falloff == Falloff::ward ? 1 / std::max(error, 1e-6f) - 1 : 1 - error;
-}
-
-std::uint32_t RecordCache::insert(const Record& record) {
-  const auto id = static_cast<std::uint32_t>(records_.size());
-  records_.push_back(record);
-  octree_.insert(id, record.position, record.footprint.radius);
-  return id;
-}
-
-void RecordCache::reindex() {
-  octree_ = Octree(bounds_);
-  for (std::uint32_t id = 0; id < records_.size(); ++id)
-    octree_.insert(id, records_[id].position, records_[id].footprint.radius);
 }
 
 std::optional<Rgb> RecordCache::interpolate(const Query& query, OpenTest open) const {
   Rgb sum;
   float weights = 0;
   visit_serving(query, open, [&](std::uint32_t id, float, float weight) {
-    const Record& record = records_[id];
+    const Record& record = records()[id];
     sum += record.extrapolate(query.position - record.position, query.facing) * weight;
     weights += weight;
   });
   if (!(weights > 0)) return std::nullopt;
   return sum / weights;
-}
-
-bool RecordCache::covers(const Query& query, OpenTest open) const {
-  return octree_.any(query.position, [&](std::uint32_t id) { return serving_error(records_[id], query, open) < 1; });
 }
 
 }  // namespace isophote

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <limits>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "isophote/cache/irradiance_cells.h"
@@ -18,7 +21,7 @@ struct Query {
   Vec3 facing;
 };
 
-/// The host's test for what stands between a record and a query: refers to a callable bool(const Record&, const
+/// The host's test for what stands between a record and a query: refers to a callable bool(const Site&, const
 /// Query&), true where the way between them is free, that outlives the lookup. Asked only where the record saw
 /// something that near. An empty one takes every way to be free.
 class OpenTest {
@@ -26,42 +29,34 @@ class OpenTest {
   OpenTest() = default;
   template <class Test>
   OpenTest(const Test& test)
-      : test_(&test), call_([](const void* t, const Record& r, const Query& q) -> bool {
+      : test_(&test), call_([](const void* t, const Site& r, const Query& q) -> bool {
           return (*static_cast<const Test*>(t))(r, q);
         }) {}
 
-  bool operator()(const Record& record, const Query& query) const { return !call_ || call_(test_, record, query); }
+  bool operator()(const Site& record, const Query& query) const { return !call_ || call_(test_, record, query); }
 
  private:
   const void* test_ = nullptr;
-  bool (*call_)(const void*, const Record&, const Query&) = nullptr;
+  bool (*call_)(const void*, const Site&, const Query&) = nullptr;
 };
 
 /// Records and the index that finds them. Reading is safe from any number of threads while nobody writes.
-class RecordCache {
+template <class R>
+class RecordStore {
  public:
-  explicit RecordCache(const Box& bounds) : bounds_(bounds), octree_(bounds), neighbours_(bounds), cells_(bounds) {}
+  explicit RecordStore(const Box& bounds) : bounds_(bounds), octree_(bounds), neighbours_(bounds) {}
 
-  std::span<const Record> records() const { return records_; }
+  std::span<const R> records() const { return records_; }
   const Box& bounds() const { return bounds_; }
 
-  std::uint32_t insert(const Record& record);
+  std::uint32_t insert(R record);
   /// The records, for `settle` to change between insertions. Radii may only shrink: the index does not follow.
-  Settling settling() { return {records_, neighbours_}; }
-  /// What gathers have left where their rays hit.
-  const IrradianceCells& cells() const { return cells_; }
-  IrradianceCells& cells() { return cells_; }
+  SettlingOf<R> settling() { return {records_, neighbours_}; }
   /// Builds the index anew, tight about footprints that have shrunk.
   void reindex();
 
-  /// Irradiance at the query, interpolated among the records that serve it: sum of weight times extrapolated value over
-  /// sum of weights [Ward, Heckbert 1992]. Nothing where no record serves.
-  std::optional<Rgb> interpolate(const Query& query, OpenTest open = {}) const;
-  /// Does any record serve?
-  bool covers(const Query& query, OpenTest open = {}) const;
-
-  /// Calls visit(id, error, weight) for all records that serve the query, in the order in which `interpolate` adds
-  /// them up: `error` as the footprint measures it, `weight` not yet over the sum of all.
+  /// Calls visit(id, error, weight) for all records that serve the query, in an order fixed by the insertions: `error`
+  /// as the footprint measures it, `weight` not yet over the sum of all.
   template <class Visit>
   void visit_serving(const Query& query, OpenTest open, Visit&& visit) const;
 
@@ -71,20 +66,52 @@ class RecordCache {
     octree_.visit_near(p, [&](std::uint32_t id) { visit(records_[id]); });
   }
 
+ protected:
+  /// Does any record serve of which test(record) holds?
+  template <class Test>
+  bool any_serving(const Query& query, OpenTest open, Test&& test) const;
+
  private:
   Box bounds_;
-  std::vector<Record> records_;
+  std::vector<R> records_;
   Octree octree_;
   NeighbourIndex neighbours_;
+};
+
+class RadianceCache;
+
+/// What is known of the light in a scene: irradiance by records, what gathers have left where their rays hit, and, if
+/// that is cached at all, incident radiance.
+class RecordCache : public RecordStore<Record> {
+ public:
+  explicit RecordCache(const Box& bounds) : RecordStore(bounds), cells_(bounds) {}
+
+  const IrradianceCells& cells() const { return cells_; }
+  IrradianceCells& cells() { return cells_; }
+  /// Null where none is cached. Copies of this cache share it.
+  const std::shared_ptr<RadianceCache>& radiance() const { return radiance_; }
+  void set_radiance(std::shared_ptr<RadianceCache> radiance) { radiance_ = std::move(radiance); }
+
+  /// Irradiance at the query, interpolated among the records that serve it: sum of weight times extrapolated value over
+  /// sum of weights [Ward, Heckbert 1992], in the order of `visit_serving`. Nothing where no record serves.
+  std::optional<Rgb> interpolate(const Query& query, OpenTest open = {}) const;
+  /// Does any record serve?
+  bool covers(const Query& query, OpenTest open = {}) const {
+    return any_serving(query, open, [](const Record&) { return true; });
+  }
+
+ private:
   IrradianceCells cells_;
+  std::shared_ptr<RadianceCache> radiance_;
 };
 
 /// The error of using `record` at (position, normal), as its footprint measures it: under 1 inside. Infinite where the
 /// record lies in front of the query [Ward, Rubinstein, Clear 1988] or on the other side of the surface.
-float footprint_error(const Record& record, const Vec3& position, const Vec3& normal);
+float footprint_error(const Site& record, const Vec3& position, const Vec3& normal);
 
 /// The same, and infinite where the record saw something between it and the query, and `open` finds it there.
-float serving_error(const Record& record, const Query& query, OpenTest open);
+template <class R>
+float serving_error(const R& record, const Query& query, OpenTest open);
 
 /// Why a record serves a query or not: the first of these that holds.
 enum class Standing : std::uint8_t {
@@ -100,13 +127,45 @@ Standing standing(const Record& record, const Query& query, OpenTest open);
 /// The weight for an error in [0, 1).
 float falloff_weight(Falloff falloff, float error);
 
+template <class R>
+float serving_error(const R& record, const Query& query, OpenTest open) {
+  const float error = footprint_error(record, query.position, query.normal);
+  if (!(error < 1)) return error;
+  const bool unsure = record.jet.distances.obstacles.before(query.position - record.position, record.normal);
+  return unsure && !open(record, query) ? std::numeric_limits<float>::infinity() : error;
+}
+
+template <class R>
+std::uint32_t RecordStore<R>::insert(R record) {
+  const auto id = static_cast<std::uint32_t>(records_.size());
+  octree_.insert(id, record.position, record.footprint.radius);
+  records_.push_back(std::move(record));
+  return id;
+}
+
+template <class R>
+void RecordStore<R>::reindex() {
+  octree_ = Octree(bounds_);
+  for (std::uint32_t id = 0; id < records_.size(); ++id)
+    octree_.insert(id, records_[id].position, records_[id].footprint.radius);
+}
+
+template <class R>
 template <class Visit>
-void RecordCache::visit_serving(const Query& query, OpenTest open, Visit&& visit) const {
+void RecordStore<R>::visit_serving(const Query& query, OpenTest open, Visit&& visit) const {
   octree_.any(query.position, [&](std::uint32_t id) {
-    const Record& record = records_[id];
+    const R& record = records_[id];
     const float error = serving_error(record, query, open);
     if (error < 1) visit(id, error, falloff_weight(record.footprint.falloff, error));
     return false;
+  });
+}
+
+template <class R>
+template <class Test>
+bool RecordStore<R>::any_serving(const Query& query, OpenTest open, Test&& test) const {
+  return octree_.any(query.position, [&](std::uint32_t id) {
+    return test(records_[id]) && serving_error(records_[id], query, open) < 1;
   });
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "isophote/cache/radiance_cache.h"
 #include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
 #include "isophote/integrate/pilot.h"
@@ -29,8 +30,8 @@ struct Candidate {
   float nearest = infinity;
   float reach = 0;
 
-  /// Takes note of a record that does not serve here.
-  void meet(const Record& record) {
+  /// Takes note of a record of what is wanted that does not serve here.
+  void meet(const Site& record) {
     if (dot(record.normal, place.normal) <= 0) return;
     const float distance = quadratic_form(record.footprint.shape, place.position - record.position);
     if (distance < nearest) nearest = distance, reach = record.footprint.radius;
@@ -65,6 +66,7 @@ class Builder {
       if (enough) break;
     }
     cache_.reindex();
+    if (cache_.radiance()) cache_.radiance()->reindex();
     report_.pilot = job_.pilot;
     job_.progress.tell("build", 1);
     return report_;
@@ -81,11 +83,12 @@ class Builder {
 
   void add_uncovered(const FirstPoint& seen, std::uint64_t key, std::vector<Candidate>& found,
                      RayCounts& counts) const {
-    const LeakTest open{job_.world, counts};
-    const std::optional<Place> place = place_of(job_, seen, key);
-    if (!place || cache_.covers(query_at(*place), open)) return;
+    const std::optional<Place> place = uncovered_place(job_, cache_, seen, key, counts);
+    if (!place) return;
     Candidate candidate{*place};
-    cache_.visit_near(place->position, [&](const Record& record) { candidate.meet(record); });
+    const auto meet = [&](const Site& record) { candidate.meet(record); };
+    if (place->diffuse) cache_.visit_near(place->position, meet);
+    if (place->bands > 0) cache_.radiance()->visit_near(place->position, meet);
     found.push_back(candidate);
   }
 
@@ -153,15 +156,16 @@ class Builder {
     const LeakTest open{job_.world, report_.rays};
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Place& place = places[i];
-      if (cache_.covers(query_at(place), open)) continue;
+      if (!place.diffuse || cache_.covers(query_at(place), open)) continue;
       const auto id =
           cache_.insert(job_.method.make_record(place.position, place.normal, first.jets[i], view_of(job_, place)));
       job_.method.settle(cache_.settling(), {&id, 1});
       report_.places.push_back(place);
     }
     std::erase_if(candidates, [&](Candidate& c) {
-      if (cache_.covers(query_at(c.place), open)) return true;
-      for (const Record& record : cache_.records()) c.meet(record);
+      if (!still_wants(cache_, c.place, open)) return true;
+      if (c.place.diffuse)
+        for (const Record& record : cache_.records()) c.meet(record);
       return false;
     });
   }
@@ -174,24 +178,35 @@ class Builder {
         report_.cancelled = true;
         return;
       }
-      const std::vector<std::uint32_t> fresh = add_records(pick(candidates));
-      std::vector<char> covered(candidates.size());
-      const auto records = cache_.records();
-      report_.rays += for_each(job_.parallel, candidates.size(), 256, [&](std::size_t i, RayCounts& counts) {
-        const LeakTest open{job_.world, counts};
-        const Query query = query_at(candidates[i].place);
-        for (const std::uint32_t id : fresh) {
-          covered[i] = serving_error(records[id], query, open) < 1;
-          if (covered[i]) return;
-          candidates[i].meet(records[id]);
-        }
-      });
+      const FreshIds fresh = add_round(pick(candidates));
+      report_.rays += for_each(job_.parallel, candidates.size(), 256,
+                               [&](std::size_t i, RayCounts& counts) { take_note(fresh, candidates[i], counts); });
       std::size_t kept = 0;
       for (std::size_t i = 0; i < candidates.size(); ++i)
-        if (!covered[i]) candidates[kept++] = candidates[i];
+        if (candidates[i].place.diffuse || candidates[i].place.bands > 0) candidates[kept++] = candidates[i];
       candidates.resize(kept);
       ++report_.rounds;
       job_.progress.tell("build", done_ + (1 - static_cast<double>(kept) / all) * share_);
+    }
+  }
+
+  /// What fresh records serve a candidate no longer wants; the others it meets.
+  void take_note(const FreshIds& fresh, Candidate& candidate, RayCounts& counts) const {
+    const LeakTest open{job_.world, counts};
+    Place& place = candidate.place;
+    const Query query = query_at(place);
+    for (const std::uint32_t id : fresh.irradiance) {
+      if (!place.diffuse) break;
+      const Record& record = cache_.records()[id];
+      place.diffuse = !(serving_error(record, query, open) < 1);
+      if (place.diffuse) candidate.meet(record);
+    }
+    for (const std::uint32_t id : fresh.radiance) {
+      if (place.bands == 0) break;
+      const RadianceRecord& record = cache_.radiance()->records()[id];
+      const bool serves = RadianceCache::bands(record) >= place.bands && serving_error(record, query, open) < 1;
+      if (serves) place.bands = 0;
+      if (!serves) candidate.meet(record);
     }
   }
 
@@ -223,21 +238,18 @@ class Builder {
     return places;
   }
 
-  std::vector<std::uint32_t> add_records(const std::vector<Place>& places) {
-    std::vector<Record> made(places.size());
+  FreshIds add_round(const std::vector<Place>& places) {
+    std::vector<NewRecords> made(places.size());
     left_.resize(std::max(left_.size(), places.size()));
     for (IrradianceCells& left : left_) left.clear();
     report_.rays += for_each(job_.parallel, places.size(), 1, [&](std::size_t i, RayCounts& counts) {
       thread_local HemisphereGather scratch;
-      made[i] = make_record(job_, cache_, places[i], scratch, left_[i], counts);
+      made[i] = make_records(job_, cache_, places[i], scratch, left_[i], counts);
     });
     take_in(job_.world, cache_.cells(), left_, report_.rays);
-    std::vector<std::uint32_t> fresh;
-    fresh.reserve(made.size());
-    for (const Record& record : made) fresh.push_back(cache_.insert(record));
-    job_.method.settle(cache_.settling(), fresh);
-    report_.places.insert(report_.places.end(), places.begin(), places.end());
-    return fresh;
+    for (const Place& place : places)
+      if (place.diffuse) report_.places.push_back(place);
+    return add_records(job_.method, cache_, std::move(made));
   }
 
   BuildReport report_;
@@ -250,7 +262,13 @@ class Builder {
 
 }  // namespace
 
-RecordCache empty_cache(const Job& job) { return RecordCache(job.world.scene.bounds()); }
+RecordCache empty_cache(const Job& job) {
+  const Box bounds = job.world.scene.bounds();
+  RecordCache cache(bounds);
+  const GlossyMethod& glossy = job.method.glossy;
+  if (glossy.caches()) cache.set_radiance(std::make_shared<RadianceCache>(bounds, glossy.basis));
+  return cache;
+}
 
 BuildReport build_in_rounds(const Job& job, RecordCache& cache) { return Builder(job, cache).run(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "isophote/cache/catalogue.h"
 #include "isophote/cache/irradiance_cells.h"
 #include "isophote/cache/record_cache.h"
 #include "isophote/trace/path.h"
@@ -12,6 +13,8 @@ struct FarLight {
   const RecordCache* records = nullptr;
   const IrradianceCells* cells = nullptr;  ///< as earlier rounds left them
   IrradianceCells* left = nullptr;         ///< what this reader leaves for later ones; not null where `cells` is not
+  const GlossyMethod* glossy = nullptr;    ///< by which the records' incident radiance is read for glossy lobes; null:
+                                           ///< rays are followed
 
   bool none() const { return !records && !cells; }
 };

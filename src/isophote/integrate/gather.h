@@ -5,7 +5,7 @@
 
 namespace isophote {
 
-/// A place for a record: a surface point with nothing of its material.
+/// A place for records: a surface point with no more of its material than what is wanted there.
 struct Place {
   Vec3 position;
   Vec3 geometric_normal;
@@ -14,6 +14,8 @@ struct Place {
   float offset = 0;       ///< SurfacePoint::offset
   Rgb medium{};           ///< SurfacePoint::medium
   std::uint64_t key = 0;  ///< seeds what is computed here: a hash of the camera sample that asked
+  bool diffuse = true;    ///< irradiance is wanted
+  int bands = 0;          ///< of incident radiance, if any are wanted
 };
 
 /// What it asks the cache, without a normal map: the hemisphere is about the interpolated normal.

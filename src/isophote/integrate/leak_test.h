@@ -11,7 +11,7 @@ struct LeakTest {
   const World& world;
   RayCounts& counts;
 
-  bool operator()(const Record& record, const Query& query) const {
+  bool operator()(const Site& record, const Query& query) const {
     return open_between(world, {record.position, record.normal}, {query.position, query.normal}, counts);
   }
 };

@@ -1,19 +1,57 @@
 #include "isophote/integrate/make_record.h"
 
+#include <algorithm>
 #include <limits>
 
+#include "isophote/cache/radiance_cache.h"
 #include "isophote/core/check.h"
 #include "isophote/integrate/adaptive_rays.h"
+#include "isophote/integrate/glossy_rule.h"
 #include "isophote/integrate/jet_memo.h"
+#include "isophote/integrate/leak_test.h"
 
 namespace isophote {
 
-std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint64_t key) {
-  if (!seen.point || !seen.point->bsdf.has_diffuse() || seen.depth + 1 >= job.world.max_depth) return std::nullopt;
-  if (seen.depth > 0 && job.world.max_depth < std::numeric_limits<int>::max()) return std::nullopt;  // see shade()
+namespace {
+
+/// Does a camera sample see a point that may read what is cached?
+bool reads_caches(const Job& job, const FirstPoint& seen) {
+  if (!seen.point || seen.depth + 1 >= job.world.max_depth) return false;
+  return seen.depth == 0 || job.world.max_depth == std::numeric_limits<int>::max();  // see shade()
+}
+
+Place at_point(const Job& job, const FirstPoint& seen, std::uint64_t key) {
   const SurfacePoint& p = *seen.point;
   const float pixel = job.pixel_footprint(seen.path_length);
-  return Place{p.position, p.geometric_normal, p.shading_normal, pixel, p.offset, p.medium, key};
+  return {p.position, p.geometric_normal, p.shading_normal, pixel, p.offset, p.medium, key};
+}
+
+/// `rays`, but that bands need some to tell them apart.
+Strata strata_for_bands(int rays, int bands) { return Strata::about(std::max(rays, 3 * bands * bands / 2)); }
+
+}  // namespace
+
+std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint64_t key) {
+  if (!reads_caches(job, seen) || !seen.point->bsdf.has_diffuse()) return std::nullopt;
+  return at_point(job, seen, key);
+}
+
+bool still_wants(const RecordCache& cache, Place& place, OpenTest open) {
+  place.diffuse = place.diffuse && !cache.covers(query_at(place), open);
+  if (place.bands > 0 && cache.radiance()->covers(query_at(place), place.bands, open)) place.bands = 0;
+  return place.diffuse || place.bands > 0;
+}
+
+std::optional<Place> uncovered_place(const Job& job, const RecordCache& cache, const FirstPoint& seen,
+                                     std::uint64_t key, RayCounts& counts) {
+  if (!reads_caches(job, seen)) return std::nullopt;
+  const Bsdf& bsdf = seen.point->bsdf;
+  Place place = at_point(job, seen, key);
+  place.diffuse = bsdf.has_diffuse();
+  if (cache.radiance() && cached_share(job.method.glossy, bsdf, -seen.direction) > 0)
+    place.bands = glossy_bands(job.method.glossy, bsdf);
+  if (!still_wants(cache, place, LeakTest{job.world, counts})) return std::nullopt;
+  return place;
 }
 
 std::optional<SeenPlace> random_place(const Job& job, Sampler& stream, std::uint64_t key, RayCounts& counts) {
@@ -29,27 +67,61 @@ View view_of(const Job& job, const Place& place) {
           job.pilot};
 }
 
+namespace {
+
+/// What gathers for records read where they hit.
+FarLight far_light(const Job& job, const RecordCache& cache, IrradianceCells& left) {
+  const Secondary secondary = job.method.secondary;
+  if (secondary == Secondary::cells) return {nullptr, &cache.cells(), &left};
+  if (secondary == Secondary::records) return {&cache, &cache.cells(), &left, &job.method.glossy};
+  return {job.light};
+}
+
+void gather_at(const Job& job, const RecordCache& cache, const Place& place, Strata strata, HemisphereGather& scratch,
+               IrradianceCells& left, RayCounts& counts) {
+  const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), place.key);
+  gather_hemisphere(job.world, far_light(job, cache, left), place, strata, key, scratch, counts);
+}
+
+}  // namespace
+
 Jet<Rgb> jet_at(const Job& job, const RecordCache& cache, const Place& place, Strata strata, HemisphereGather& scratch,
                 IrradianceCells& left, RayCounts& counts) {
-  const Secondary secondary = job.method.secondary;
-  ISOPHOTE_CHECK(job.memo && (secondary != Secondary::off || job.method.adaptive), ==, false);
-  FarLight from{job.light};
-  if (secondary == Secondary::cells) from = {nullptr, &cache.cells(), &left};
-  if (secondary == Secondary::records) from = {&cache, &cache.cells(), &left};
+  ISOPHOTE_CHECK(job.memo && (job.method.secondary != Secondary::off || job.method.adaptive), ==, false);
   const auto gather = [&]() -> const HemisphereGather& {
-    const std::uint64_t key = hash(static_cast<std::uint64_t>(Purpose::record), place.key);
-    gather_hemisphere(job.world, from, place, strata, key, scratch, counts);
+    gather_at(job, cache, place, strata, scratch, left, counts);
     return scratch;
   };
   const Estimator& estimator = *job.method.estimator;
   return job.memo ? job.memo->jet(estimator, place.key, gather) : estimator.estimate(gather());
 }
 
-Record make_record(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
-                   IrradianceCells& left, RayCounts& counts) {
-  const Strata strata = job.method.adaptive ? strata_near(job, cache, place) : job.strata;
-  const Jet<Rgb> jet = jet_at(job, cache, place, strata, scratch, left, counts);
-  return job.method.make_record(place.position, place.normal, jet, view_of(job, place));
+NewRecords make_records(const Job& job, const RecordCache& cache, const Place& place, HemisphereGather& scratch,
+                        IrradianceCells& left, RayCounts& counts) {
+  const Method& method = job.method;
+  const View view = view_of(job, place);
+  const Strata strata = method.adaptive ? strata_near(job, cache, place) : job.strata;
+  NewRecords made;
+  if (place.bands == 0) {
+    const Jet<Rgb> jet = jet_at(job, cache, place, strata, scratch, left, counts);
+    made.irradiance = method.make_record(place.position, place.normal, jet, view);
+    return made;
+  }
+  gather_at(job, cache, place, strata_for_bands(strata.size(), place.bands), scratch, left, counts);
+  if (place.diffuse) made.irradiance = method.make_record(scratch, view);
+  made.radiance = method.make_radiance_record(scratch, place.bands, view);
+  return made;
+}
+
+FreshIds add_records(const Method& method, RecordCache& cache, std::vector<NewRecords> made) {
+  FreshIds fresh;
+  for (NewRecords& records : made) {
+    if (records.irradiance) fresh.irradiance.push_back(cache.insert(std::move(*records.irradiance)));
+    if (records.radiance) fresh.radiance.push_back(cache.radiance()->insert(std::move(*records.radiance)));
+  }
+  method.settle(cache.settling(), fresh.irradiance);
+  if (!fresh.radiance.empty()) method.settle(cache.radiance()->settling(), fresh.radiance);
+  return fresh;
 }
 
 }  // namespace isophote

@@ -40,6 +40,7 @@ RecordCache regressed(const Job& job, const RecordCache& cache, RayCounts& count
     settled.settle(result.settling(), {&id, 1});
   }
   result.reindex();
+  result.set_radiance(cache.radiance());
   return result;
 }
 

@@ -40,7 +40,8 @@ Seen shade_sample(const Job& job, const RecordCache* cache, const Ray& ray, cons
              !cache->covers(query_at(point), LeakTest{job.world, counts})) {
     return {{}, false};  // nothing is known here, not even the direct light: alpha 0
   } else {
-    light = shade(job.world, {cache}, point, wo, seen.path_length, seen.depth, stream, counts);
+    light = shade(job.world, {cache, nullptr, nullptr, &job.method.glossy}, point, wo, seen.path_length, seen.depth,
+                  stream, counts);
   }
   out.direct += seen.throughput * light.direct;
   out.indirect = seen.throughput * light.indirect;
@@ -170,15 +171,15 @@ LazyReport render_lazily(const Job& asked, RecordCache& cache, Film& film) {
         Sampler stream = job.sampler(x, y, s);
         const Ray ray = job.camera_ray(x, y, stream);
         const FirstPoint seen = first_point(job.world, ray, true, stream, report.final.rays.camera);
-        const std::optional<Place> place = place_of(job, seen, hash(job.seed, x, y, s));
-        const LeakTest open{job.world, report.build_rays};
-        if (place && !report.final.cancelled && !cache.covers(query_at(*place), open)) {
+        const std::uint64_t key = hash(job.seed, x, y, s);
+        std::optional<Place> place;
+        if (!report.final.cancelled) place = uncovered_place(job, cache, seen, key, report.build_rays);
+        if (place) {
           const Clock before = Clock::now();
-          const auto id = static_cast<std::uint32_t>(cache.records().size());
           IrradianceCells left;
-          cache.insert(make_record(job, cache, *place, scratch, left, report.build_rays));
+          NewRecords made = make_records(job, cache, *place, scratch, left, report.build_rays);
           take_in(job.world, cache.cells(), {&left, 1}, report.build_rays);
-          job.method.settle(cache.settling(), {&id, 1});
+          add_records(job.method, cache, {std::move(made)});
           report.build += Clock::now() - before;
         }
         const Uncovered uncovered = report.final.cancelled ? Uncovered::skip : Uncovered::trace;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "isophote/cache/radiance_cache.h"
+#include "isophote/integrate/glossy_lobes.h"
+#include "isophote/integrate/glossy_rule.h"
 #include "isophote/integrate/leak_test.h"
 
 namespace isophote {
@@ -39,35 +42,72 @@ float glossy_chance(const FarLight& from, const SurfacePoint& point, const Vec3&
   return from.cells && point.bsdf.has_diffuse() ? std::min(by_light, chain_odds(point, wo, depth).glossy) : by_light;
 }
 
-/// What leaves one point towards `wo`: of all lobes where a path took over (`whole`), else of the diffuse lobe.
+/// What leaves one point towards `wo`, but for what a glossy ray has yet to find.
 struct Left {
   Shaded light;
-  bool whole = false;
+  bool whole = false;  ///< there is no glossy ray to follow
 };
 
-Left shade_without_glossy(const World& world, const FarLight& from, const SurfacePoint& point, const Vec3& wo,
-                          float distance, int depth, Sampler& sampler, RayCounts& counts) {
+/// What the glossy lobe reflects by records of incident radiance.
+struct Reflection {
+  bool wanted = false;  ///< it was to be read
+  std::optional<Rgb> radiance;
+};
+
+Reflection cached_reflection(const World& world, const FarLight& from, const SurfacePoint& point, const Vec3& wo,
+                             Sampler& sampler, RayCounts& counts) {
+  const Bsdf& bsdf = point.bsdf;
+  if (!from.glossy || !from.records || !from.records->radiance() || !bsdf.has_glossy()) return {};
+  const float share = cached_share(*from.glossy, bsdf, wo);
+  if (!(share > 0) || (share < 1 && !(sampler.next() < share))) return {};
+  const GlossyLobes& lobes = glossy_lobes(from.records->radiance()->basis());
+  const Rgb albedo = specular_albedo(bsdf, dot(wo, bsdf.frame.n));
+  const auto set_lobe = [&](Lobe& lobe, float cosine) {
+    // Of a record with another normal the lobe is for another elevation; the light it reflects stays that of this one.
+    const Rgb there = specular_albedo(bsdf, cosine);
+    const auto ratio = [&](int c) { return there[c] > 0 ? albedo[c] / there[c] : 1; };
+    const Rgb scale{ratio(0), ratio(1), ratio(2)};
+    lobes.set(lobe, bsdf.alpha, cosine, bsdf.f0 * scale, scale * bsdf.f90);
+  };
+  return {true, from.records->radiance()->reflect(query_at(point), wo, glossy_bands(*from.glossy, bsdf), set_lobe,
+                                                  LeakTest{world, counts})};
+}
+
+/// Of the diffuse lobe, and of the glossy one where that is cached; of all lobes where a path takes over.
+Left shade_by_caches(const World& world, const FarLight& from, const SurfacePoint& point, const Vec3& wo,
+                     float distance, int depth, Sampler& sampler, RayCounts& counts) {
   const auto path = [&](bool covered) -> Left {
     const Scattered s = scatter(world, point, wo, depth, sampler, counts);
     return {{s.direct, s.indirect, s.irradiance, covered}, true};
   };
   if (depth > 0 && world.max_depth < std::numeric_limits<int>::max()) return path(true);
-  if (!point.bsdf.has_diffuse()) return {};
   std::optional<Rgb> irradiance;
-  if (from.records) irradiance = from.records->interpolate(query_at(point), LeakTest{world, counts});
-  if (!irradiance && from.cells)
-    irradiance =
-        cell_irradiance(world, from, point, distance, depth, chain_odds(point, wo, depth).diffuse, sampler, counts);
-  if (!irradiance) return path(false);
-  return {{direct_diffuse(world, point, wo, sampler, counts), diffuse_albedo(point.bsdf, wo) * *irradiance / pi,
-           *irradiance, true}};
+  if (point.bsdf.has_diffuse()) {
+    if (from.records) irradiance = from.records->interpolate(query_at(point), LeakTest{world, counts});
+    if (!irradiance && from.cells)
+      irradiance =
+          cell_irradiance(world, from, point, distance, depth, chain_odds(point, wo, depth).diffuse, sampler, counts);
+    if (!irradiance) return path(false);
+  }
+  const Reflection reflection = cached_reflection(world, from, point, wo, sampler, counts);
+  Left left;
+  left.whole = reflection.radiance.has_value();
+  left.light.covered = left.whole || !reflection.wanted;
+  if (!irradiance && !left.whole) return left;
+  left.light.direct = direct_light(world, point, wo, left.whole, sampler, counts);
+  if (irradiance) {
+    left.light.irradiance = *irradiance;
+    left.light.indirect = diffuse_albedo(point.bsdf, wo) * *irradiance / pi;
+  }
+  if (left.whole) left.light.indirect += *reflection.radiance;
+  return left;
 }
 
 }  // namespace
 
 Shaded shade(const World& world, const FarLight& from, const SurfacePoint& point, const Vec3& wo, float distance,
              int depth, Sampler& sampler, RayCounts& counts) {
-  Left left = shade_without_glossy(world, from, point, wo, distance, depth, sampler, counts);
+  Left left = shade_by_caches(world, from, point, wo, distance, depth, sampler, counts);
   Shaded result = left.light;
   const SurfacePoint* at = &point;
   Vec3 towards = wo;
@@ -86,7 +126,7 @@ Shaded shade(const World& world, const FarLight& from, const SurfacePoint& point
     if (!ray.next.point || depth >= world.max_depth || is_black(throughput)) break;
     at = &*ray.next.point;
     towards = -ray.next.direction;
-    left = shade_without_glossy(world, from, *at, towards, ray.next.path_length, depth, sampler, counts);
+    left = shade_by_caches(world, from, *at, towards, ray.next.path_length, depth, sampler, counts);
     result.indirect += throughput * (left.light.direct + left.light.indirect);
     result.covered = result.covered && left.light.covered;
   }

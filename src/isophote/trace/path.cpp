@@ -142,6 +142,21 @@ Event scatter_once(const World& world, const SurfacePoint& point, const Vec3& wo
   return event;
 }
 
+/// The directly sampled emitter that a ray meets first, if it does: `arrival.lamp`.
+Arrival lamp_along(const World& world, const SurfacePoint& point, const Vec3& direction, std::uint32_t seed,
+                   RayCounts& counts) {
+  const Ray ray{offset_origin(point, direction), direction};
+  Arrival arrival;
+  ++counts.path;
+  if (world.rays.intersect(ray, seed, arrival.hit)) {
+    const SurfacePoint end = surface_point(world.scene, ray, arrival.hit);
+    arrival.lamp = end.emission * transmittance(medium_before(end, point.medium), arrival.hit.distance);
+  } else if (const Emitters::Sky sky = world.emitters.environment(direction); sky.sampled_directly) {
+    arrival.lamp = sky.radiance;
+  }
+  return arrival;
+}
+
 /// Radiance that `arrival` brings but for what its first segment met: light after specular events, and a path from its
 /// point.
 Rgb trace_on(const World& world, Arrival arrival, int depth, Sampler& sampler, RayCounts& counts) {
@@ -181,40 +196,44 @@ Scattered scatter(const World& world, const SurfacePoint& point, const Vec3& wo,
   return out;
 }
 
-Rgb direct_diffuse(const World& world, const SurfacePoint& point, const Vec3& wo, Sampler& sampler, RayCounts& counts) {
+Rgb direct_light(const World& world, const SurfacePoint& point, const Vec3& wo, bool glossy_too, Sampler& sampler,
+                 RayCounts& counts) {
   constexpr auto among = Emitters::Among::sampled_directly;
   const float u_choice = sampler.next();
   const Vec2 u_light = sampler.next2(), u_ray = sampler.next2();
   const std::uint32_t seed = sampler.next_bits();
-  const Rgb albedo = diffuse_albedo(point.bsdf, wo);
-  if (is_black(albedo) || world.max_depth < 1) return {};
+  const Bsdf& bsdf = point.bsdf;
+  const Rgb albedo = diffuse_albedo(bsdf, wo);
+  const bool diffuse = !is_black(albedo), glossy = glossy_too && bsdf.has_glossy();
+  if (!(diffuse || glossy) || world.max_depth < 1) return {};
   const bool shared = world.emitters.near(point.position);
-  const auto cosine = [&](const Vec3& wi) { return dot(wi, point.bsdf.frame.n); };
 
-  Rgb irradiance;
-  const auto add = [&](const Incident& light) {
-    const float c = cosine(light.direction);
-    const float mis = shared && light.pdf > 0 ? mis_weight(light.pdf, cosine_hemisphere_pdf(c)) : 1.0f;
-    irradiance += light.radiance * (c * mis);
-  };
-  sample_lights(
-      world, point, u_choice, u_light, seed, among, counts, [](const Incident&) { return true; }, add);
-  const BsdfSample sample = sample_diffuse(point.bsdf, albedo, u_ray);
-  if (shared && usable(point, sample)) {
-    const Ray ray{offset_origin(point, sample.direction), sample.direction};
-    Arrival arrival;
-    ++counts.path;
-    if (world.rays.intersect(ray, seed, arrival.hit)) {
-      const SurfacePoint end = surface_point(world.scene, ray, arrival.hit);
-      arrival.lamp = end.emission * transmittance(medium_before(end, point.medium), arrival.hit.distance);
-    } else if (const Emitters::Sky sky = world.emitters.environment(sample.direction); sky.sampled_directly) {
-      arrival.lamp = sky.radiance;
+  Rgb sum, scattered;
+  const auto scatter_it = [&](const Incident& light) {
+    scattered = {};
+    const bool weigh = shared && light.pdf > 0;
+    if (diffuse) {
+      const float c = dot(light.direction, bsdf.frame.n);
+      scattered = albedo * (c / pi * (weigh ? mis_weight(light.pdf, cosine_hemisphere_pdf(c)) : 1.0f));
     }
+    if (glossy)
+      scattered += evaluate_glossy(bsdf, wo, light.direction) *
+                   (weigh ? mis_weight(light.pdf, glossy_pdf(bsdf, wo, light.direction)) : 1.0f);
+    return !is_black(scattered);
+  };
+  const auto add = [&](const Incident& light) { sum += scattered * light.radiance; };
+  sample_lights(world, point, u_choice, u_light, seed, among, counts, scatter_it, add);
+  if (!shared) return sum;
+  const auto add_ray = [&](const BsdfSample& sample) {
+    if (!usable(point, sample)) return;
+    const Arrival arrival = lamp_along(world, point, sample.direction, seed, counts);
     if (!is_black(arrival.lamp))
-      irradiance +=
-          arrival.lamp * (pi * mis_weight(sample.pdf, light_pdf(world, point, sample.direction, arrival, among)));
-  }
-  return albedo * irradiance * (1 / pi);
+      sum += sample.weight * arrival.lamp *
+             mis_weight(sample.pdf, light_pdf(world, point, sample.direction, arrival, among));
+  };
+  if (diffuse) add_ray(sample_diffuse(bsdf, albedo, u_ray));
+  if (glossy) add_ray(sample_glossy(bsdf, wo, sampler.next2()));
+  return sum;
 }
 
 GlossyRay glossy_ray(const World& world, const SurfacePoint& point, const Vec3& wo, Sampler& sampler,

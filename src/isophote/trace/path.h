@@ -58,8 +58,9 @@ struct Scattered {
 Scattered scatter(const World& world, const SurfacePoint& point, const Vec3& wo, int depth, Sampler& sampler,
                   RayCounts& counts);
 
-/// The `direct` part of the diffuse lobe alone: radiance towards `wo`.
-Rgb direct_diffuse(const World& world, const SurfacePoint& point, const Vec3& wo, Sampler& sampler, RayCounts& counts);
+/// The `direct` part alone, of the diffuse lobe or of that and the glossy one: radiance towards `wo`.
+Rgb direct_light(const World& world, const SurfacePoint& point, const Vec3& wo, bool glossy_too, Sampler& sampler,
+                 RayCounts& counts);
 
 /// One ray of the glossy lobe. `direct`: the glossy lobe's light from directly sampled emitters (light sampling and
 /// this ray share by MIS). `next` is where the ray goes on, with `next.emission` free of what `direct` holds; indirect

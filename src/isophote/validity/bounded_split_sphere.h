@@ -6,7 +6,8 @@
 namespace isophote {
 
 /// The split-sphere metric with its radius bounded, on the unscaled radius by the gradient, on the used one by the
-/// rest.
-Footprint bounded_split_sphere(const Jet<Rgb>& jet, const View& view, float a, const RadiusBounds& bounds);
+/// rest. Of irradiance or incident radiance.
+template <class V>
+Footprint bounded_split_sphere(const Jet<V>& jet, const View& view, float a, const RadiusBounds& bounds);
 
 }  // namespace isophote

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "isophote/validity/gradient_radius.h"
+
 namespace isophote {
 
 void limit_extrapolation(Record& record, float natural_radius) {
@@ -20,6 +22,11 @@ void limit_extrapolation(Record& record, float natural_radius) {
   constexpr float most_bend = 0.25f;  // of the value: beyond, a parabola says little
   const float left = bend > most_bend * l ? most_bend * l / bend : 1.0f;
   record.curvature_scale = std::min(scale * scale, left) * Record::whole_curvature(value);
+}
+
+void limit_extrapolation(RadianceRecord& record, float natural_radius) {
+  const float radius = record.footprint.radius, change = radius / gradient_radius(record.jet);
+  record.gradient_scale = std::min({1.0f, natural_radius / radius, change > 1 ? 1 / change : 1});
 }
 
 }  // namespace isophote

@@ -9,5 +9,7 @@ namespace isophote {
 /// 2006]. The Hessian is scaled so that it bends the value by no more than a quarter of its luminance. `natural_radius`
 /// is r: what the radius would be without the lower bound. Called again whenever the radius changes.
 void limit_extrapolation(Record& record, float natural_radius);
+/// The same of all coefficients together, in the root of the sum of their squares; there is no Hessian.
+void limit_extrapolation(RadianceRecord& record, float natural_radius);
 
 }  // namespace isophote

@@ -37,94 +37,92 @@ std::uint32_t NeighbourIndex::child(std::uint32_t cell, int octant) {
   return cells_[cell].children[octant];
 }
 
-void NeighbourIndex::insert(std::span<const Record> records) {
-  insert(records, 0, static_cast<std::uint32_t>(size_));
-  ++size_;
+void NeighbourIndex::insert(const Known& record) {
+  known_.push_back(record);
+  insert(0, static_cast<std::uint32_t>(known_.size() - 1));
 }
 
-void NeighbourIndex::insert(std::span<const Record> records, std::uint32_t cell, std::uint32_t id) {
-  const Record& record = records[id];
+void NeighbourIndex::insert(std::uint32_t cell, std::uint32_t id) {
+  const Known& record = known_[id];
   Cell& here = cells_[cell];
   here.box.extend(record.position);
-  here.least = std::min(here.least, record.footprint.unscaled);
-  here.greatest = std::max(here.greatest, record.footprint.unscaled);
+  here.least = std::min(here.least, record.unscaled);
+  here.greatest = std::max(here.greatest, record.unscaled);
   if (std::any_of(here.children.begin(), here.children.end(), [](std::uint32_t c) { return c != 0; })) {
-    insert(records, child(cell, octant(here, record.position)), id);
+    insert(child(cell, octant(here, record.position)), id);
     return;
   }
   here.ids.push_back(id);
-  if (here.ids.size() > leaf_size && here.half > smallest_) split(records, cell);
+  if (here.ids.size() > leaf_size && here.half > smallest_) split(cell);
 }
 
-void NeighbourIndex::split(std::span<const Record> records, std::uint32_t cell) {
+void NeighbourIndex::split(std::uint32_t cell) {
   const std::vector<std::uint32_t> ids = std::exchange(cells_[cell].ids, {});
-  for (const std::uint32_t id : ids) insert(records, child(cell, octant(cells_[cell], records[id].position)), id);
+  for (const std::uint32_t id : ids) insert(child(cell, octant(cells_[cell], known_[id].position)), id);
 }
 
-void NeighbourIndex::lowered(std::span<const Record> records, std::uint32_t id) {
-  lowered(records, 0, records[id].position);
+void NeighbourIndex::lower(std::uint32_t id, float unscaled) {
+  known_[id].unscaled = unscaled;
+  lower(0, known_[id].position);
 }
 
-void NeighbourIndex::lowered(std::span<const Record> records, std::uint32_t cell, const Vec3& position) {
+void NeighbourIndex::lower(std::uint32_t cell, const Vec3& position) {
   Cell& here = cells_[cell];
-  if (const std::uint32_t next = here.children[octant(here, position)]) lowered(records, next, position);
+  if (const std::uint32_t next = here.children[octant(here, position)]) lower(next, position);
   here.greatest = 0;
   const auto take = [&](float least, float greatest) {
     here.least = std::min(here.least, least), here.greatest = std::max(here.greatest, greatest);
   };
-  for (const std::uint32_t id : here.ids) take(records[id].footprint.unscaled, records[id].footprint.unscaled);
+  for (const std::uint32_t id : here.ids) take(known_[id].unscaled, known_[id].unscaled);
   for (const std::uint32_t next : here.children)
     if (next != 0) take(cells_[next].least, cells_[next].greatest);
 }
 
-float NeighbourIndex::limit(std::span<const Record> records, const Vec3& position, const Vec3& normal, float unscaled,
-                            float slope) const {
-  limit(records, 0, position, normal, slope, unscaled);
-  return unscaled;
+float NeighbourIndex::limit(const Known& record, float slope) const {
+  float least = record.unscaled;
+  limit(0, record, slope, least);
+  return least;
 }
 
-void NeighbourIndex::limit(std::span<const Record> records, std::uint32_t cell, const Vec3& position,
-                           const Vec3& normal, float slope, float& least) const {
+void NeighbourIndex::limit(std::uint32_t cell, const Known& record, float slope, float& least) const {
   const Cell& here = cells_[cell];
   const auto in_reach = [&](float radius, float distance_squared) {
     const float reach = (least - radius) / slope;
     return reach > 0 && distance_squared < reach * reach;
   };
-  if (!in_reach(here.least, distance_squared(here.box, position))) return;
+  if (!in_reach(here.least, distance_squared(here.box, record.position))) return;
   for (const std::uint32_t id : here.ids) {
-    const Record& other = records[id];
-    const float apart = length_squared(other.position - position);
-    if (in_reach(other.footprint.unscaled, apart) && dot(normal, other.normal) > 0)
-      least = std::min(least, other.footprint.unscaled + slope * std::sqrt(apart));
+    const Known& other = known_[id];
+    const float apart = length_squared(other.position - record.position);
+    if (in_reach(other.unscaled, apart) && dot(record.normal, other.normal) > 0)
+      least = std::min(least, other.unscaled + slope * std::sqrt(apart));
   }
-  const int nearest = octant(here, position);
+  const int nearest = octant(here, record.position);
   for (int i = 0; i < 8; ++i)
-    if (const std::uint32_t next = here.children[nearest ^ i]) limit(records, next, position, normal, slope, least);
+    if (const std::uint32_t next = here.children[nearest ^ i]) limit(next, record, slope, least);
 }
 
-std::vector<std::uint32_t> NeighbourIndex::limited(std::span<const Record> records, const Record& by,
-                                                   float slope) const {
+std::vector<std::uint32_t> NeighbourIndex::limited(const Known& by, float slope) const {
   std::vector<std::uint32_t> found;
-  limited(records, 0, by, slope, found);
+  limited(0, by, slope, found);
   return found;
 }
 
-void NeighbourIndex::limited(std::span<const Record> records, std::uint32_t cell, const Record& by, float slope,
+void NeighbourIndex::limited(std::uint32_t cell, const Known& by, float slope,
                              std::vector<std::uint32_t>& found) const {
   const Cell& here = cells_[cell];
   const auto in_reach = [&](float radius, float distance_squared) {
-    const float reach = (radius - by.footprint.unscaled) / slope;
+    const float reach = (radius - by.unscaled) / slope;
     return reach > 0 && distance_squared < reach * reach;
   };
   if (!in_reach(here.greatest, distance_squared(here.box, by.position))) return;
   for (const std::uint32_t id : here.ids) {
-    const Record& other = records[id];
-    if (in_reach(other.footprint.unscaled, length_squared(other.position - by.position)) &&
-        dot(by.normal, other.normal) > 0)
+    const Known& other = known_[id];
+    if (in_reach(other.unscaled, length_squared(other.position - by.position)) && dot(by.normal, other.normal) > 0)
       found.push_back(id);
   }
   for (const std::uint32_t next : here.children)
-    if (next != 0) limited(records, next, by, slope, found);
+    if (next != 0) limited(next, by, slope, found);
 }
 
 }  // namespace isophote

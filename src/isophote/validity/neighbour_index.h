@@ -12,24 +12,30 @@ namespace isophote {
 
 /// Finds, among many records, those that limit the unscaled radius of another and those that it limits: records that
 /// face alike keep R_i <= R_j + slope |x_i - x_j| [Krivanek 2006]. An octree over their positions, whose cells know the
-/// least and the greatest unscaled radius in them, so that few pairs are looked at. It holds ids; the records are
-/// handed in with each call, ids being their places. Records may lie beyond the bounds. For one thread.
+/// least and the greatest unscaled radius in them, so that few pairs are looked at. Ids count insertions. Records may
+/// lie beyond the bounds. For one thread.
 class NeighbourIndex {
  public:
+  /// What it wants to know of a record.
+  struct Known {
+    Vec3 position, normal;
+    float unscaled = 0;
+
+    Known(const Site& site) : position(site.position), normal(site.normal), unscaled(site.footprint.unscaled) {}
+  };
+
   explicit NeighbourIndex(const Box& bounds);
 
   /// How many records it knows: those of ids below.
-  std::size_t size() const { return size_; }
-  /// Takes in records[size()].
-  void insert(std::span<const Record> records);
+  std::size_t size() const { return known_.size(); }
+  void insert(const Known& record);
   /// To be told when the unscaled radius of a known record was lowered.
-  void lowered(std::span<const Record> records, std::uint32_t id);
+  void lower(std::uint32_t id, float unscaled);
 
-  /// The least of `unscaled` and all R_j + slope |x_j - position| among the known records that face as `normal` does.
-  float limit(std::span<const Record> records, const Vec3& position, const Vec3& normal, float unscaled,
-              float slope) const;
+  /// The least of the record's unscaled radius and all R_j + slope |x_j - x| among the known records that face alike.
+  float limit(const Known& record, float slope) const;
   /// The known records that `by` limits, in an order fixed by the insertions.
-  std::vector<std::uint32_t> limited(std::span<const Record> records, const Record& by, float slope) const;
+  std::vector<std::uint32_t> limited(const Known& by, float slope) const;
 
  private:
   struct Cell {
@@ -43,23 +49,23 @@ class NeighbourIndex {
 
   int octant(const Cell& cell, const Vec3& p) const;
   std::uint32_t child(std::uint32_t cell, int octant);
-  void split(std::span<const Record> records, std::uint32_t cell);
-  void insert(std::span<const Record> records, std::uint32_t cell, std::uint32_t id);
-  void lowered(std::span<const Record> records, std::uint32_t cell, const Vec3& position);
-  void limit(std::span<const Record> records, std::uint32_t cell, const Vec3& position, const Vec3& normal, float slope,
-             float& least) const;
-  void limited(std::span<const Record> records, std::uint32_t cell, const Record& by, float slope,
-               std::vector<std::uint32_t>& found) const;
+  void split(std::uint32_t cell);
+  void insert(std::uint32_t cell, std::uint32_t id);
+  void lower(std::uint32_t cell, const Vec3& position);
+  void limit(std::uint32_t cell, const Known& record, float slope, float& least) const;
+  void limited(std::uint32_t cell, const Known& by, float slope, std::vector<std::uint32_t>& found) const;
 
+  std::vector<Known> known_;
   std::vector<Cell> cells_;
   float smallest_;
-  std::size_t size_ = 0;
 };
 
 /// What `settle` changes: the records, of which the newest have not met the others, and the index of those that have.
-struct Settling {
-  std::span<Record> records;
+template <class R>
+struct SettlingOf {
+  std::span<R> records;
   NeighbourIndex& neighbours;
 };
+using Settling = SettlingOf<Record>;
 
 }  // namespace isophote

@@ -1,18 +1,22 @@
 #pragma once
 
 #include "isophote/core/rgb.h"
+#include "isophote/derivatives/incident_radiance.h"
 #include "isophote/derivatives/jet.h"
 #include "isophote/validity/footprint.h"
 
 namespace isophote {
 
-/// A place at which the illumination is known, with its derivatives and the region where they may be used. What a
-/// lookup reads first comes first.
-struct Record {
+/// Where a record is and may be used, whatever it holds. What a lookup reads first comes first.
+struct Site {
   Vec3 position;
   Vec3 normal;  ///< unit
   Footprint footprint;
-  float gradient_scale = 1;   ///< what the limit on extrapolation leaves of the translational gradient
+  float gradient_scale = 1;  ///< what the limit on extrapolation leaves of the translational gradient
+};
+
+/// A place at which the irradiance is known, with its derivatives and the region where they may be used.
+struct Record : Site {
   float curvature_scale = 0;  ///< of the Hessian: the part left of `whole_curvature`
   Jet<Rgb> jet;               ///< irradiance
 
@@ -31,6 +35,11 @@ struct Record {
     if (footprint.order > 1) value += jet.value * (curvature_scale * quadratic_form(jet.hessian, d));
     return max(value, Rgb{});
   }
+};
+
+/// A place at which incident radiance is known as a function of direction, in the frame that its normal has.
+struct RadianceRecord : Site {
+  RadianceJet jet;
 };
 
 }  // namespace isophote

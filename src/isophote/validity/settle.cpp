@@ -13,7 +13,8 @@ constexpr float least_height = 0.25f;
 
 /// Where a lower bound has raised the radius above what the metric alone would give, the record reaches further along
 /// its surface only: what lies above, on a step or a table, may be lit quite otherwise.
-void settle_raised(Record& record, const SettleRule& rule) {
+template <class R>
+void settle_raised(R& record, const SettleRule& rule) {
   const float natural = record.footprint.unscaled * rule.scale, radius = record.footprint.radius;
   limit_extrapolation(record, natural);
   if (!(natural < radius)) return;
@@ -21,38 +22,42 @@ void settle_raised(Record& record, const SettleRule& rule) {
   record.footprint.flatten(record.normal, std::min(height, std::max(natural, least_height * radius)));
 }
 
-void shrink(Record& record, float unscaled, const SettleRule& rule) {
+void shrink(Site& record, float unscaled, const SettleRule& rule) {
   record.footprint.unscaled = unscaled;
   record.footprint.resize(unscaled * rule.scale);
 }
 
 /// A fresh record takes its own limit from all its neighbours first, and then limits them: among records that face
 /// alike the outcome is the largest radii that keep the bound, whatever the order.
-void clamp_to_neighbours(const Settling& settling, std::uint32_t fresh, const SettleRule& rule) {
+template <class R>
+void clamp_to_neighbours(const SettlingOf<R>& settling, std::uint32_t fresh, const SettleRule& rule) {
   const auto& [records, neighbours] = settling;
-  Record& record = records[fresh];
-  const float unscaled = record.footprint.unscaled;
-  const float limit = neighbours.limit(records, record.position, record.normal, unscaled, rule.slope);
-  if (limit < unscaled) shrink(record, limit, rule);
-  neighbours.insert(records);
-  for (const std::uint32_t id : neighbours.limited(records, record, rule.slope)) {
-    Record& other = records[id];
+  R& record = records[fresh];
+  const float limit = neighbours.limit(record, rule.slope);
+  if (limit < record.footprint.unscaled) shrink(record, limit, rule);
+  neighbours.insert(record);
+  for (const std::uint32_t id : neighbours.limited(record, rule.slope)) {
+    R& other = records[id];
     shrink(other, record.footprint.unscaled + rule.slope * length(other.position - record.position), rule);
     settle_raised(other, rule);
-    neighbours.lowered(records, id);
+    neighbours.lower(id, other.footprint.unscaled);
   }
 }
 
 }  // namespace
 
-void settle(const Settling& settling, std::span<const std::uint32_t> fresh, const SettleRule& rule) {
+template <class R>
+void settle(const SettlingOf<R>& settling, std::span<const std::uint32_t> fresh, const SettleRule& rule) {
   for (const std::uint32_t id : fresh) {
     if (rule.slope > 0) {
-      while (settling.neighbours.size() < id) settling.neighbours.insert(settling.records);
+      while (settling.neighbours.size() < id) settling.neighbours.insert(settling.records[settling.neighbours.size()]);
       clamp_to_neighbours(settling, id, rule);
     }
     settle_raised(settling.records[id], rule);
   }
 }
+
+template void settle(const SettlingOf<Record>&, std::span<const std::uint32_t>, const SettleRule&);
+template void settle(const SettlingOf<RadianceRecord>&, std::span<const std::uint32_t>, const SettleRule&);
 
 }  // namespace isophote

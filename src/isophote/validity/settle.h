@@ -15,6 +15,7 @@ struct SettleRule {
 /// bound raised a radius above what the metric gives, that reach holds along the surface only, and extrapolation is
 /// limited. `fresh` are the ids of the newest records, ascending and without gaps, which the others have not met. Radii
 /// only shrink.
-void settle(const Settling& settling, std::span<const std::uint32_t> fresh, const SettleRule& rule);
+template <class R>
+void settle(const SettlingOf<R>& settling, std::span<const std::uint32_t> fresh, const SettleRule& rule);
 
 }  // namespace isophote

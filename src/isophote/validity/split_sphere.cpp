@@ -7,8 +7,8 @@ namespace isophote {
 
 float split_sphere_radius(float harmonic_mean, float a) { return harmonic_mean * a * (std::numbers::pi_v<float> / 4); }
 
-Footprint split_sphere(const Jet<Rgb>& jet, const View& view, float a) {
-  const float r = std::min(jet.distances.harmonic_mean, view.scene_scale);
+Footprint split_sphere(const DistanceStats& distances, const View& view, float a) {
+  const float r = std::min(distances.harmonic_mean, view.scene_scale);
   Footprint footprint = Footprint::disk(std::max(split_sphere_radius(r, a), smallest_radius * view.scene_scale), 1 / a);
   footprint.unscaled = r;
   return footprint;

@@ -10,7 +10,7 @@ namespace isophote {
 ///   eps = (4/pi) d / R + sqrt(1 - n . n_i),   R the harmonic mean distance of what the record sees,
 /// and the record is used where eps < a. No other limit, but that under an open sky R is the scene's diagonal,
 /// and that the radius stays above smallest_radius.
-Footprint split_sphere(const Jet<Rgb>& jet, const View& view, float a);
+Footprint split_sphere(const DistanceStats& distances, const View& view, float a);
 
 /// The radius at which the split sphere's distance term alone reaches `a`.
 float split_sphere_radius(float harmonic_mean, float a);

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "isophote/cache/lobe.h"
+#include "isophote/cache/record_cache.h"
+
+namespace isophote {
+
+/// Incident radiance by records, of which glossy lobes take what they reflect [Krivanek 2005a].
+class RadianceCache : public RecordStore<RadianceRecord> {
+ public:
+  RadianceCache(const Box& bounds, Basis basis) : RecordStore(bounds), basis_(basis) {}
+
+  Basis basis() const { return basis_; }
+
+  /// Radiance reflected at the query towards the unit vector `towards` by a lobe of `order` bands, the mean over the
+  /// records that serve it and have as many; nothing where there is none. set_lobe(lobe, cosine) sets the coefficients
+  /// of a lobe of that order for a viewer at that cosine.
+  ///
+  /// The query's normal and a record's may differ, by the surface's bend or by a normal map (query.facing). Frames are
+  /// aligned so that the mirror direction, where the lobe is, keeps its place in the world: the record's lobe is that
+  /// for the viewer who would see the same direction mirrored about the record's normal.
+  template <class SetLobe>
+  std::optional<Rgb> reflect(const Query& query, const Vec3& towards, int order, SetLobe&& set_lobe,
+                             OpenTest open = {}) const;
+
+  /// Does any record of at least `order` bands serve?
+  bool covers(const Query& query, int order, OpenTest open = {}) const {
+    return any_serving(query, open, [&](const RadianceRecord& r) { return bands(r) >= order; });
+  }
+
+  static int bands(const RadianceRecord& record);
+
+ private:
+  Basis basis_;
+};
+
+/// The product of a lobe with a record's radiance extrapolated to position + d. `viewer` is the viewer's direction, of
+/// any length, across the record's normal in its frame. Never negative.
+Rgb reflected(const RadianceRecord& record, const Frame& frame, const Vec3& d, const Lobe& lobe, Vec2 viewer);
+
+template <class SetLobe>
+std::optional<Rgb> RadianceCache::reflect(const Query& query, const Vec3& towards, int order, SetLobe&& set_lobe,
+                                          OpenTest open) const {
+  const Vec3 mirrored = query.facing * (2 * dot(query.facing, towards)) - towards;
+  Lobe lobe;
+  lobe.order = order;
+  float set_at = -1, weights = 0;
+  Rgb sum;
+  visit_serving(query, open, [&](std::uint32_t id, float, float weight) {
+    const RadianceRecord& record = records()[id];
+    if (bands(record) < order) return;
+    const Frame frame(record.normal);
+    const Vec3 local = frame.to_local(mirrored);
+    constexpr float least = 1e-3f, alike = 1e-4f;
+    const float cosine = std::clamp(local.z, least, 1.0f);
+    if (std::abs(cosine - set_at) > alike) set_lobe(lobe, set_at = cosine);
+    sum += reflected(record, frame, query.position - record.position, lobe, {-local.x, -local.y}) * weight;
+    weights += weight;
+  });
+  if (!(weights > 0)) return std::nullopt;
+  return sum / weights;
+}
+
+}  // namespace isophote

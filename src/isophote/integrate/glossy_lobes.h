@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "isophote/cache/lobe.h"
+#include "isophote/core/rgb.h"
+#include "isophote/harmonics/basis.h"
+
+namespace isophote {
+
+/// The glossy lobe of the material model (bsdf.h) in a basis: GGX under Schlick's Fresnel term is f0 times one function
+/// plus f90 times another, whose coefficients are tabulated over roughness and the cosine of the viewer.
+class GlossyLobes {
+ public:
+  explicit GlossyLobes(Basis basis);
+
+  /// Of alpha there are tables from here to 1.
+  static constexpr float least_alpha = 0.15f;
+
+  /// The lobe at `alpha` seen from `cos_o`, with reflectances `f0` and `f90`. lobe.order says how many bands.
+  void set(Lobe& lobe, float alpha, float cos_o, const Rgb& f0, const Rgb& f90) const;
+
+  /// What the first `order` bands miss of the lobe (of f0 = 1, f90 = 0), relative, in the root of the mean square.
+  float truncation(float alpha, float cos_o, int order) const;
+
+ private:
+  struct Node {
+    std::array<float, polar_count(most_order)> by_f0, by_f90;
+    std::array<float, most_order + 1> truncation;
+  };
+  struct Place;  // between nodes
+
+  std::vector<Node> nodes_;
+};
+
+/// The tables of a basis, made when first asked for.
+const GlossyLobes& glossy_lobes(Basis basis);
+
+}  // namespace isophote
