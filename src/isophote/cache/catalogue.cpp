@@ -119,7 +119,7 @@ constexpr const Metric &split = row(metric_table, "split-sphere"), &bounded = ro
 constexpr float any_aspect = std::numeric_limits<float>::infinity();
 const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = 1};
 const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.08f, .max_view = 0.03f, .neighbours = 1};
-const RadiusBounds radiance_preset{.min_pixels = 1.5f, .max_view = 0.1f, .gradient = true, .neighbours = 1};
+const RadiusBounds radiance_preset{.min_pixels = 1.5f, .max_view = 0.1f, .neighbours = 1};
 const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = 1};
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.

@@ -132,34 +132,11 @@ std::optional<Fit> fit(const Record& record, const Neighbours& neighbours, const
 
 }  // namespace
 
-Regression::Regression(const RecordCache& cache) : records_(cache.records()), reach_(cache.bounds()) {
-  for (std::uint32_t id = 0; id < records_.size(); ++id)
-    reach_.insert(id, records_[id].position, neighbour_radii * records_[id].footprint.radius);
-}
-
-std::vector<Regression::Neighbour> Regression::neighbours(const Record& record, OpenTest open) const {
-  constexpr float alike = 0.95f, off_plane = 0.15f;
-  const auto free = [&](const Record& from, const Record& to) {
-    return !from.jet.distances.obstacles.before(to.position - from.position, from.normal) ||
-           open(from, {to.position, to.normal, to.normal});
-  };
-  std::vector<Neighbour> found;
-  reach_.any(record.position, [&](std::uint32_t id) {
-    const Record& other = records_[id];
-    const Vec3 q = other.position - record.position;
-    const float distance = length(q);
-    const float reach = neighbour_radii * std::min(record.footprint.radius, other.footprint.radius);
-    if (distance > reach || dot(other.normal, record.normal) < alike) return false;
-    if (std::max(std::abs(dot(q, record.normal)), std::abs(dot(q, other.normal))) > off_plane * distance) return false;
-    if (free(record, other) && free(other, record)) found.push_back({&other, q, distance});
-    return false;
-  });
-  return found;
-}
+Regression::Regression(const RecordCache& cache) : neighbours_(cache, neighbour_radii) {}
 
 Regression::Risks Regression::risks(std::uint32_t id, OpenTest open) const {
-  const Record& record = records_[id];
-  const std::vector<Neighbour> around = neighbours(record, open);
+  const Record& record = neighbours_.records()[id];
+  const auto around = neighbours_.around(record, open);
   if (around.size() < fewest_neighbours) return {};
   const Pooled all = pooled(around);
   if (!(all.value > 0)) return {};
@@ -175,8 +152,8 @@ Regression::Risks Regression::risks(std::uint32_t id, OpenTest open) const {
 }
 
 Record Regression::fitted(std::uint32_t id, double distrust, OpenTest open) const {
-  const Record& record = records_[id];
-  const std::vector<Neighbour> around = neighbours(record, open);
+  const Record& record = neighbours_.records()[id];
+  const auto around = neighbours_.around(record, open);
   if (around.size() < fewest_neighbours) return record;
   const Pooled all = pooled(around);
   if (!(all.value > 0)) return record;

@@ -2,11 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
-#include <vector>
 
-#include "isophote/cache/octree.h"
-#include "isophote/cache/record_cache.h"
+#include "isophote/cache/record_neighbours.h"
 
 namespace isophote {
 
@@ -33,15 +30,7 @@ class Regression {
   Record fitted(std::uint32_t id, double distrust, OpenTest open) const;
 
  private:
-  struct Neighbour {
-    const Record* record;
-    Vec3 offset;
-    float distance;
-  };
-  std::vector<Neighbour> neighbours(const Record& record, OpenTest open) const;
-
-  std::span<const Record> records_;
-  Octree reach_;  // of the records, each as far as it is a neighbour
+  RecordNeighbours<Record> neighbours_;
 };
 
 }  // namespace isophote

@@ -12,7 +12,7 @@ namespace isophote {
 /// How many bands the records have of which a lobe of this roughness is read; 0: none are, rays are followed.
 int glossy_bands(const GlossyMethod& method, const Bsdf& bsdf);
 
-/// The chance, from 0 to 1, with which a viewer at `wo` is shown what records say; else a ray is followed. It goes from
+/// The share, from 0 to 1, of what a viewer at `wo` is shown that records say; the rest a ray has to find. It goes from
 /// the one to the other gradually, so that nothing on a surface shows where.
 float cached_share(const GlossyMethod& method, const Bsdf& bsdf, const Vec3& wo);
 

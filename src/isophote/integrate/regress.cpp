@@ -1,7 +1,9 @@
 #include "isophote/integrate/regress.h"
 
 #include <algorithm>
+#include <memory>
 
+#include "isophote/cache/radiance_regression.h"
 #include "isophote/cache/regression.h"
 #include "isophote/integrate/leak_test.h"
 
@@ -22,6 +24,17 @@ double best_distrust(const Job& job, const Regression& regression, std::size_t r
   return Regression::distrusts[static_cast<std::size_t>(std::min_element(sum.begin(), sum.end()) - sum.begin())];
 }
 
+std::shared_ptr<RadianceCache> regressed_radiance(const Job& job, const RadianceCache& cache, RayCounts& counts) {
+  const RadianceRegression regression(cache);
+  std::vector<RadianceRecord> fitted(cache.records().size());
+  counts += for_each(job.parallel, fitted.size(), 16, [&](std::size_t i, RayCounts& each) {
+    fitted[i] = regression.fitted(static_cast<std::uint32_t>(i), LeakTest{job.world, each});
+  });
+  auto result = std::make_shared<RadianceCache>(cache.bounds(), cache.basis());
+  for (RadianceRecord& record : fitted) result->insert(std::move(record));
+  return result;
+}
+
 }  // namespace
 
 RecordCache regressed(const Job& job, const RecordCache& cache, RayCounts& counts) {
@@ -40,7 +53,7 @@ RecordCache regressed(const Job& job, const RecordCache& cache, RayCounts& count
     settled.settle(result.settling(), {&id, 1});
   }
   result.reindex();
-  result.set_radiance(cache.radiance());
+  if (cache.radiance()) result.set_radiance(regressed_radiance(job, *cache.radiance(), counts));
   return result;
 }
 

@@ -45,21 +45,21 @@ float glossy_chance(const FarLight& from, const SurfacePoint& point, const Vec3&
 /// What leaves one point towards `wo`, but for what a glossy ray has yet to find.
 struct Left {
   Shaded light;
-  bool whole = false;  ///< there is no glossy ray to follow
+  float for_ray = 1;  ///< the share of the glossy lobe's indirect light that is a ray's; 0: there is none to follow
 };
 
-/// What the glossy lobe reflects by records of incident radiance.
+/// What the glossy lobe reflects by records of incident radiance, which is shown in part; the rest is a ray's.
 struct Reflection {
-  bool wanted = false;  ///< it was to be read
+  float share = 0;
   std::optional<Rgb> radiance;
 };
 
 Reflection cached_reflection(const World& world, const FarLight& from, const SurfacePoint& point, const Vec3& wo,
-                             Sampler& sampler, RayCounts& counts) {
+                             RayCounts& counts) {
   const Bsdf& bsdf = point.bsdf;
   if (!from.glossy || !from.records || !from.records->radiance() || !bsdf.has_glossy()) return {};
   const float share = cached_share(*from.glossy, bsdf, wo);
-  if (!(share > 0) || (share < 1 && !(sampler.next() < share))) return {};
+  if (!(share > 0)) return {};
   const GlossyLobes& lobes = glossy_lobes(from.records->radiance()->basis());
   const Rgb albedo = specular_albedo(bsdf, dot(wo, bsdf.frame.n));
   const auto set_lobe = [&](Lobe& lobe, float cosine) {
@@ -69,8 +69,8 @@ Reflection cached_reflection(const World& world, const FarLight& from, const Sur
     const Rgb scale{ratio(0), ratio(1), ratio(2)};
     lobes.set(lobe, bsdf.alpha, cosine, bsdf.f0 * scale, scale * bsdf.f90);
   };
-  return {true, from.records->radiance()->reflect(query_at(point), wo, glossy_bands(*from.glossy, bsdf), set_lobe,
-                                                  LeakTest{world, counts})};
+  return {share, from.records->radiance()->reflect(query_at(point), wo, glossy_bands(*from.glossy, bsdf), set_lobe,
+                                                   LeakTest{world, counts})};
 }
 
 /// Of the diffuse lobe, and of the glossy one where that is cached; of all lobes where a path takes over.
@@ -78,7 +78,7 @@ Left shade_by_caches(const World& world, const FarLight& from, const SurfacePoin
                      float distance, int depth, Sampler& sampler, RayCounts& counts) {
   const auto path = [&](bool covered) -> Left {
     const Scattered s = scatter(world, point, wo, depth, sampler, counts);
-    return {{s.direct, s.indirect, s.irradiance, covered}, true};
+    return {{s.direct, s.indirect, s.irradiance, covered}, 0};
   };
   if (depth > 0 && world.max_depth < std::numeric_limits<int>::max()) return path(true);
   std::optional<Rgb> irradiance;
@@ -89,17 +89,17 @@ Left shade_by_caches(const World& world, const FarLight& from, const SurfacePoin
           cell_irradiance(world, from, point, distance, depth, chain_odds(point, wo, depth).diffuse, sampler, counts);
     if (!irradiance) return path(false);
   }
-  const Reflection reflection = cached_reflection(world, from, point, wo, sampler, counts);
+  const Reflection reflection = cached_reflection(world, from, point, wo, counts);
   Left left;
-  left.whole = reflection.radiance.has_value();
-  left.light.covered = left.whole || !reflection.wanted;
-  if (!irradiance && !left.whole) return left;
-  left.light.direct = direct_light(world, point, wo, left.whole, sampler, counts);
+  if (reflection.radiance) left.for_ray = 1 - reflection.share;
+  left.light.covered = reflection.radiance || !(reflection.share > 0);
+  if (irradiance || left.for_ray == 0)
+    left.light.direct = direct_light(world, point, wo, left.for_ray == 0, sampler, counts);
   if (irradiance) {
     left.light.irradiance = *irradiance;
     left.light.indirect = diffuse_albedo(point.bsdf, wo) * *irradiance / pi;
   }
-  if (left.whole) left.light.indirect += *reflection.radiance;
+  if (reflection.radiance) left.light.indirect += *reflection.radiance * reflection.share;
   return left;
 }
 
@@ -113,13 +113,13 @@ Shaded shade(const World& world, const FarLight& from, const SurfacePoint& point
   Vec3 towards = wo;
   Rgb throughput{1.0f};
   GlossyRay ray;
-  for (int events = 0; !left.whole && at->bsdf.has_glossy(); ++events) {
-    const float chance = glossy_chance(from, *at, towards, throughput, depth, events);
+  for (int events = 0; left.for_ray > 0 && at->bsdf.has_glossy(); ++events) {
+    const float chance = glossy_chance(from, *at, towards, throughput * left.for_ray, depth, events);
     if (!(sampler.next() < chance)) break;
     throughput = throughput / chance;
     ray = glossy_ray(world, *at, towards, sampler, counts);
     (events == 0 ? result.direct : result.indirect) += throughput * ray.direct;
-    throughput *= ray.weight;
+    throughput *= ray.weight * left.for_ray;
     result.indirect += throughput * ray.next.emission;
     throughput *= ray.next.throughput;
     depth += 1 + ray.next.depth;
