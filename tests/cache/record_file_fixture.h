@@ -19,8 +19,9 @@ namespace isophote::test {
 namespace fs = std::filesystem;
 
 /// Where things lie in a file: magic, version, scene, length of the settings, settings, survey with threshold, count,
-/// records, checksum.
-inline constexpr std::size_t settings_at = 24, survey_bytes = 17, record_bytes = 234;
+/// records; basis, count and records of radiance; checksum.
+inline constexpr std::size_t settings_at = 24, survey_bytes = 17, record_bytes = 234, radiance_head_bytes = 9,
+                             radiance_record_bytes = 116, coefficient_bytes = 12;
 
 class RecordFileTest : public testing::Test {
  protected:
@@ -57,6 +58,26 @@ class RecordFileTest : public testing::Test {
       r.jet.distances.harmonic_mean = i % 2 ? infinity : 2;
       for (int s = i % 3; s < Obstacles::sectors; s += 3) r.jet.distances.obstacles.meet(s, random.number(0, 9));
       file.records.push_back(r);
+    }
+    return file;
+  }
+
+  /// The same with two records of radiance: of one band, and of three with gradients.
+  static RecordFile with_radiance(int count) {
+    RecordFile file = sample(count);
+    RandomPlaces random(23);
+    file.basis = Basis::spherical;
+    for (const int bands : {1, 3}) {
+      RadianceRecord& r = file.radiance.emplace_back();
+      static_cast<Site&>(r) = sample(1).records[0];
+      const auto coefficients = [&](Coefficients& all) {
+        for (int i = 0; i < bands * bands; ++i) all.push_back(random.colour(-2, 2));
+      };
+      coefficients(r.jet.value);
+      if (bands > 1) coefficients(r.jet.translational.x), coefficients(r.jet.translational.y);
+      r.jet.rays = 300;
+      r.jet.distances.harmonic_mean = 2;
+      r.jet.distances.obstacles.meet(3, 1);
     }
     return file;
   }

@@ -8,7 +8,7 @@ namespace isophote::test {
 namespace {
 
 TEST_F(RecordFileTest, EveryFlippedByteIsRefused) {
-  write_records(path_, sample(1));
+  write_records(path_, with_radiance(1));
   const std::string whole = bytes();
   for (std::size_t i = 0; i < whole.size(); ++i)
     for (const int flip : {0x01, 0x80}) {
@@ -20,7 +20,7 @@ TEST_F(RecordFileTest, EveryFlippedByteIsRefused) {
 }
 
 TEST_F(RecordFileTest, EveryTruncationAndAnExtensionIsRefused) {
-  write_records(path_, sample(2));
+  write_records(path_, with_radiance(2));
   const std::string whole = bytes();
   for (std::size_t size = 0; size < whole.size(); ++size) {
     put(whole.substr(0, size));
@@ -43,7 +43,7 @@ TEST_F(RecordFileTest, WrongLengthsWithARightChecksumAreRefused) {
     EXPECT_NE(refusal().find("malformed"), std::string::npos) << count;
   }
   for (const std::uint64_t length : {std::uint64_t{0}, file.settings.size() - 1, file.settings.size() + 1,
-                                     whole.size() - 39, whole.size(), std::uint64_t{0xffffffff}}) {
+                                     whole.size() - 48, whole.size(), std::uint64_t{0xffffffff}}) {
     std::string crafted = whole;
     put_integer(crafted, settings_at - 4, length, 4);
     put_signed(crafted);
@@ -128,6 +128,45 @@ TEST_F(RecordFileTest, UnusableRecordsWithARightChecksumAreRefused) {
   }
 }
 
+TEST_F(RecordFileTest, UnusableRadianceWithARightChecksumIsRefused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::function<void(RadianceRecord&)>> harms = {
+      [&](RadianceRecord& r) { r.position.y = nan; },
+      [&](RadianceRecord& r) { r.footprint.radius = 0; },
+      [&](RadianceRecord& r) { r.gradient_scale = 2; },
+      [&](RadianceRecord& r) { r.jet.value[4].g = nan; },
+      [&](RadianceRecord& r) { r.jet.value[8].b = -3e38f; },
+      [&](RadianceRecord& r) { r.jet.translational.x[0].r = infinity; },
+      [&](RadianceRecord& r) { r.jet.translational.y[7].b = nan; },
+      [&](RadianceRecord& r) { r.jet.distances.harmonic_mean = nan; },
+      [&](RadianceRecord& r) { r.jet.distances.obstacles.nearest[5] = 0x8001; },
+  };
+  for (std::size_t i = 0; i < harms.size(); ++i) {
+    RecordFile file = with_radiance(1);
+    harms[i](file.radiance[1]);
+    write_records(path_, file);
+    EXPECT_EQ(refusal(), "record 1 of radiance is malformed") << "harm " << i;
+  }
+  const RecordFile file = with_radiance(1);
+  write_records(path_, file);
+  const std::string whole = bytes();
+  const std::size_t head_at = settings_at + file.settings.size() + survey_bytes + 8 + record_bytes,
+                    bands_at = head_at + radiance_head_bytes + radiance_record_bytes - 2;
+  const auto crafted = [&](std::size_t at, std::uint64_t value, int size) {
+    std::string bytes = whole;
+    put_integer(bytes, at, value, size);
+    put_signed(bytes);
+    return refusal();
+  };
+  EXPECT_EQ(crafted(head_at, 2, 1), "its basis is malformed");
+  for (const std::uint64_t count : {0ull, 1ull, 3ull, 1ull << 40, 0xffffffffffffffffull})
+    EXPECT_NE(crafted(head_at + 1, count, 8).find("malformed"), std::string::npos) << count;
+  for (const unsigned bands : {0u, 2u, 17u, 255u})
+    EXPECT_NE(crafted(bands_at, bands, 1).find("malformed"), std::string::npos) << bands;
+  for (const unsigned gradient : {1u, 2u})
+    EXPECT_NE(crafted(bands_at + 1, gradient, 1).find("malformed"), std::string::npos) << gradient;
+}
+
 TEST_F(RecordFileTest, WhatIsNoRecordFile) {
   EXPECT_EQ(refusal(), "cannot be opened");
   for (const std::string& content :
@@ -161,7 +200,7 @@ TEST_F(RecordFileTest, HugeFilesAreRefusedAtOnce) {
   put_integer(counting, settings_at + survey_bytes - 4, std::bit_cast<std::uint32_t>(1.0f), 4);
   put_integer(counting, settings_at + survey_bytes, count, 8);
   put(counting);
-  fs::resize_file(path_, settings_at + survey_bytes + 16 + record_bytes * count);
+  fs::resize_file(path_, settings_at + survey_bytes + 16 + radiance_head_bytes + record_bytes * count);
   EXPECT_EQ(refusal(), "record 0 is malformed");
 }
 

@@ -37,22 +37,45 @@ TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
       EXPECT_EQ(a.jet.distances.obstacles, b.jet.distances.obstacles);
     }
     const std::string first = bytes();
-    EXPECT_EQ(first.size(),
-              settings_at + file.settings.size() + survey_bytes + 16 + record_bytes * static_cast<std::size_t>(count));
+    EXPECT_EQ(first.size(), settings_at + file.settings.size() + survey_bytes + 16 + radiance_head_bytes +
+                                record_bytes * static_cast<std::size_t>(count));
     write_records(path_, back);
     EXPECT_EQ(bytes(), first);
   }
 }
 
+TEST_F(RecordFileTest, RadianceIsKeptToo) {
+  const RecordFile file = with_radiance(1);
+  write_records(path_, file);
+  const RecordFile back = read_records(path_);
+  EXPECT_EQ(back.basis, file.basis);
+  ASSERT_EQ(back.radiance.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const RadianceRecord &a = file.radiance[i], &b = back.radiance[i];
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.footprint.shape, b.footprint.shape);
+    EXPECT_EQ(a.jet.value, b.jet.value);
+    EXPECT_EQ(a.jet.translational.x, b.jet.translational.x);
+    EXPECT_EQ(a.jet.translational.y, b.jet.translational.y);
+    EXPECT_EQ(a.jet.rays, b.jet.rays);
+    EXPECT_EQ(a.jet.distances.obstacles, b.jet.distances.obstacles);
+  }
+  const std::string first = bytes();
+  EXPECT_EQ(first.size(), settings_at + file.settings.size() + survey_bytes + 16 + radiance_head_bytes + record_bytes +
+                              2 * radiance_record_bytes + coefficient_bytes * (1 + 3 * 9));
+  write_records(path_, back);
+  EXPECT_EQ(bytes(), first);
+}
+
 TEST_F(RecordFileTest, IsLittleEndianAndVersioned) {
   write_records(path_, sample(1));
   const std::string content = bytes();
-  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\5\0\0\0", 12));
+  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\6\0\0\0", 12));
   EXPECT_EQ(static_cast<unsigned char>(content[12]), 0xef);  // the scene's lowest byte
   std::string later = content;
-  put_integer(later, 8, 6, 4);
+  put_integer(later, 8, 7, 4);
   put_signed(later);
-  EXPECT_EQ(refusal(), "has version 6, this program reads 5");
+  EXPECT_EQ(refusal(), "has version 7, this program reads 6");
 }
 
 TEST_F(RecordFileTest, FlatFootprintsAreKept) {

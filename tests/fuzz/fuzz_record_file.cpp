@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "isophote/cache/record_cache.h"
+#include "isophote/cache/radiance_cache.h"
 #include "isophote/cache/record_file.h"
 #include "isophote/core/error.h"
 #include "support/sign_record_file.h"
@@ -30,6 +30,14 @@ void look_up(const RecordCache& cache, const Record& record, const Vec3& offset)
   if (found && !(is_finite(*found) && std::min({found->r, found->g, found->b}) >= 0)) std::abort();
 }
 
+/// Nor is what a lobe reflects of radiance.
+void reflect(const RadianceCache& cache, const RadianceRecord& record, const Vec3& offset) {
+  const auto found =
+      cache.reflect({record.position + offset * record.footprint.radius, record.normal, record.normal}, record.normal,
+                    RadianceCache::bands(record), [](Lobe& lobe, float) { lobe.coefficients.fill(Rgb(0.5f)); });
+  if (found && !(is_finite(*found) && std::min({found->r, found->g, found->b}) >= 0)) std::abort();
+}
+
 /// What was accepted can be indexed and looked up, and is written back as it was.
 void use(const std::string& path, const std::string& bytes) {
   const RecordFile file = read_records(path);
@@ -38,6 +46,10 @@ void use(const std::string& path, const std::string& bytes) {
   for (const Record& record : file.records)
     for (const Vec3& offset : {Vec3{}, Vec3{0.5f, 0, 0}, Vec3{0, 0.5f, 0}, Vec3{0, 0, 0.5f}})
       look_up(cache, record, offset);
+  RadianceCache radiance(cache.bounds(), file.basis);
+  for (const RadianceRecord& record : file.radiance) radiance.insert(record);
+  for (const RadianceRecord& record : file.radiance)
+    for (const Vec3& offset : {Vec3{}, Vec3{0.5f, 0, 0}, Vec3{0, 0, 0.5f}}) reflect(radiance, record, offset);
   write_records(path, file);
   if (content(path) != bytes) std::abort();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "isophote/cache/radiance_cache.h"
 #include "isophote/cache/record_file.h"
 #include "isophote/core/error.h"
 #include "isophote/integrate/film.h"
@@ -34,6 +35,12 @@ void check_size(int width, int height) {
   MemoryBudget(physical_memory()).take(bytes, fmt::format("a picture of {} x {} pixels", width, height));
 }
 
+std::string glossy_settings(const GlossyMethod& g) {
+  if (!g.caches()) return std::string(name_of(g.from));
+  return fmt::format("{}, {}, {}, {}, a = {}", name_of(g.from), g.estimator->name, g.metric->name, name_of(g.basis),
+                     g.settings.a);
+}
+
 /// What shapes records, for the record file. The view and the seed do not matter: records of another view or seed serve
 /// as well.
 std::string record_settings(const Job& job) {
@@ -42,13 +49,19 @@ std::string record_settings(const Job& job) {
   return fmt::format(
       "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmax-view={}\nmin-radius={}\n"
       "max-radius={}\nbound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}\n"
-      "secondary={}\nleak-test={}\nmax-depth={}\n",
+      "secondary={}\nleak-test={}\nmax-depth={}\nglossy={}\n",
       m.estimator->name, m.metric->name, m.settings.a, b.min_pixels, b.max_pixels, b.min_view, b.max_view, b.min_length,
       b.max_length, b.gradient, b.neighbours, m.settings.aspect, m.order,
       m.settings.falloff ? static_cast<int>(*m.settings.falloff) : -1,
       m.adaptive ? fmt::format("auto, to {:.2g} of the error", m.noise() / m.error())
                  : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal),
-      name_of(m.secondary), m.leak_test, job.world.max_depth);
+      name_of(m.secondary), m.leak_test, job.world.max_depth, glossy_settings(m.glossy));
+}
+
+std::vector<RadianceRecord> radiance_of(const RecordCache& cache) {
+  if (!cache.radiance()) return {};
+  const auto records = cache.radiance()->records();
+  return {records.begin(), records.end()};
 }
 
 }  // namespace
@@ -131,6 +144,8 @@ RecordCache Session::starting_cache() {
   const RecordFile file = read_records(request_.load_cache);
   require_match(request_.load_cache, file, scene_hash(loaded_.scene), record_settings(*job_));
   for (const Record& record : file.records) cache.insert(record);
+  if (cache.radiance())
+    for (const RadianceRecord& record : file.radiance) cache.radiance()->insert(record);
   job_->pilot = file.pilot;
   job_->method.settings.a = file.threshold;
   return cache;
@@ -170,7 +185,9 @@ void Session::save(const RecordCache& cache, const std::string& path) const {
                        record_settings(job),
                        job.pilot,
                        job_->method.settings.a,
-                       {records.begin(), records.end()}});
+                       {records.begin(), records.end()},
+                       job.method.glossy.basis,
+                       radiance_of(cache)});
 }
 
 }  // namespace isophote::app

@@ -15,6 +15,8 @@ struct RecordFile {
   Pilot pilot{};            ///< of the picture they were made for
   float threshold = 1;      ///< that gave their footprints: after refinement, less than the settings say
   std::vector<Record> records;
+  Basis basis = Basis::hemispherical;  ///< of the radiance
+  std::vector<RadianceRecord> radiance{};
 };
 
 /// Writes a versioned, little-endian, checksummed file, complete or not at all. Throws UserError.

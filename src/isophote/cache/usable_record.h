@@ -1,0 +1,12 @@
+#pragma once
+
+#include "isophote/validity/record.h"
+
+namespace isophote {
+
+/// Is everything in a record finite and such that lookups can add it up? What comes from outside may hold anything.
+bool usable(const Record& record);
+bool usable(const RadianceRecord& record);
+bool usable(const Pilot& pilot);
+
+}  // namespace isophote
