@@ -9,19 +9,26 @@
 
 namespace isophote::app {
 int methods() {
-  std::vector<Row> rows = {{"method", "estimator", "metric", "bounds", "secondary", "what it is"}};
+  std::vector<Row> rows = {{"method", "estimator", "metric", "bounds", "secondary", "glossy", "what it is"}};
   for (const Method& m : isophote::methods()) {
     const std::string what = std::string(m.summary) + (m.paper.empty() ? "" : " ") + std::string(m.paper);
     if (m.caches())
       rows.push_back({std::string(m.name), std::string(m.estimator->name), std::string(m.metric->name),
-                      describe(m.settings.bounds), std::string(name_of(m.secondary)), what});
+                      describe(m.settings.bounds), std::string(name_of(m.secondary)), std::string(name_of(m.glossy.from)),
+                      what});
     else
-      rows.push_back({std::string(m.name), "-", "-", "-", "-", what});
+      rows.push_back({std::string(m.name), "-", "-", "-", "-", "-", what});
   }
   print_table(rows);
 
   rows = {{"estimator", "gives", "paper"}};
   for (const Estimator& e : estimators())
+    rows.push_back({std::string(e.name), std::string(e.gives), std::string(e.paper)});
+  fmt::print("\n");
+  print_table(rows);
+
+  rows = {{"estimator of radiance", "gives", "paper"}};
+  for (const RadianceEstimator& e : radiance_estimators())
     rows.push_back({std::string(e.name), std::string(e.gives), std::string(e.paper)});
   fmt::print("\n");
   print_table(rows);

@@ -38,19 +38,25 @@ std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint6
 
 bool still_wants(const RecordCache& cache, Place& place, OpenTest open) {
   place.diffuse = place.diffuse && !cache.covers(query_at(place), open);
-  if (place.bands > 0 && cache.radiance()->covers(query_at(place), place.bands, open)) place.bands = 0;
+  if (!cache.radiance() || (place.bands > 0 && cache.radiance()->covers(query_at(place), place.bands, open)))
+    place.bands = 0;
   return place.diffuse || place.bands > 0;
 }
 
-std::optional<Place> uncovered_place(const Job& job, const RecordCache& cache, const FirstPoint& seen,
-                                     std::uint64_t key, RayCounts& counts) {
+std::optional<Place> wanted_place(const Job& job, const FirstPoint& seen, std::uint64_t key) {
   if (!reads_caches(job, seen)) return std::nullopt;
   const Bsdf& bsdf = seen.point->bsdf;
   Place place = at_point(job, seen, key);
   place.diffuse = bsdf.has_diffuse();
-  if (cache.radiance() && cached_share(job.method.glossy, bsdf, -seen.direction) > 0)
-    place.bands = glossy_bands(job.method.glossy, bsdf);
-  if (!still_wants(cache, place, LeakTest{job.world, counts})) return std::nullopt;
+  if (cached_share(job.method.glossy, bsdf, -seen.direction) > 0) place.bands = glossy_bands(job.method.glossy, bsdf);
+  if (!place.diffuse && place.bands == 0) return std::nullopt;
+  return place;
+}
+
+std::optional<Place> uncovered_place(const Job& job, const RecordCache& cache, const FirstPoint& seen,
+                                     std::uint64_t key, RayCounts& counts) {
+  std::optional<Place> place = wanted_place(job, seen, key);
+  if (!place || !still_wants(cache, *place, LeakTest{job.world, counts})) return std::nullopt;
   return place;
 }
 

@@ -11,8 +11,9 @@ namespace isophote {
 /// meets nothing that scatters diffusely.
 std::optional<Place> place_of(const Job& job, const FirstPoint& seen, std::uint64_t key = 0);
 
-/// The place a camera sample asks to be covered, with what no record serves that it wants, incident radiance included;
-/// none where all is served.
+/// The place of a camera sample with all that is wanted there, incident radiance included; none where nothing is.
+std::optional<Place> wanted_place(const Job& job, const FirstPoint& seen, std::uint64_t key = 0);
+/// The same with what no record serves; none where all is served.
 std::optional<Place> uncovered_place(const Job& job, const RecordCache& cache, const FirstPoint& seen,
                                      std::uint64_t key, RayCounts& counts);
 /// Takes out of what is wanted at a place what records serve; false where nothing is left.

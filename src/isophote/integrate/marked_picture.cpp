@@ -26,14 +26,14 @@ struct Look {
 Look look(const Job& job, const Window& window, float x, float y, RayCounts& counts) {
   Sampler stream = job.sampler(static_cast<int>(x), static_cast<int>(y), 0);
   Look view{first_point(job.world, job.camera.ray(x, y, job.width, job.height), true, stream, counts.camera), {}};
-  if (const auto place = place_of(job, view.seen))
+  if (const auto place = wanted_place(job, view.seen))
     view.sight = {*place, view.seen.direction, place->pixel / window.zoom};
   return view;
 }
 
 }  // namespace
 
-OnScreen on_screen(const Record& record, const Sight& sight) {
+OnScreen on_screen(const Site& record, const Sight& sight) {
   const Vec3 q = sight.place.position - record.position, &d = sight.direction, &n = sight.place.geometric_normal;
   const float t = std::sqrt(quadratic_form(record.footprint.shape, q));
   const float from_centre = length(q - d * dot(q, d)) / sight.pixel;

@@ -30,7 +30,7 @@ struct OnScreen {
   float inside_rim;  ///< how far within the footprint; negative outside
   float from_centre;
 };
-OnScreen on_screen(const Record& record, const Sight& sight);
+OnScreen on_screen(const Site& record, const Sight& sight);
 
 /// The irradiance of a cache, dimmed, with marks over it, meant for sRGB display without further exposure.
 /// mark(x, y, sight) gives the colour at (x, y) of the whole picture, if anything is drawn there; there is no sight
