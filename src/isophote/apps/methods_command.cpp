@@ -14,8 +14,8 @@ int methods() {
     const std::string what = std::string(m.summary) + (m.paper.empty() ? "" : " ") + std::string(m.paper);
     if (m.caches())
       rows.push_back({std::string(m.name), std::string(m.estimator->name), std::string(m.metric->name),
-                      describe(m.settings.bounds), std::string(name_of(m.secondary)), std::string(name_of(m.glossy.from)),
-                      what});
+                      describe(m.settings.bounds), std::string(name_of(m.secondary)),
+                      std::string(name_of(m.glossy.from)), what});
     else
       rows.push_back({std::string(m.name), "-", "-", "-", "-", "-", what});
   }
