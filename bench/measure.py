@@ -50,7 +50,9 @@ def render(view, *flags, output=None):
 def error(view, picture, layer="irradiance", other=None):
     """Errors of a picture; those that it has in common with `other`, of another seed, if that is given."""
     first, second = view.references()
-    command = [str(PROGRAM), "compare", str(picture), str(first), "--second", str(second), "--layer", layer, "--json"]
+    command = [str(PROGRAM), "compare", str(picture), str(first), "--second", str(second), "--json"]
+    if layer:
+        command += ["--layer", layer]
     if other:
         command += ["--other", str(other)]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
