@@ -48,6 +48,11 @@ class BadUsage(ProgramTest):
         self.refused_render(("--regress", "on", "--leak-test", "off"), "--regress", "--leak-test")
         self.refused_render(("--regress", "on", "--method", "swept"), "--regress", "--leak-test")
         self.refused_render(("--records", "100", "--load-cache", "c"), "--records")
+        self.refused_render(("--glossy", "mirror"), "--glossy", "cache, rays or auto")
+        self.refused_render(("--method", "ward1992", "--glossy-a", "0.2"), "--glossy-", "--glossy cache or auto")
+        self.refused_render(("--glossy-metric", "total-error"), "--glossy-metric", "irradiance alone")
+        self.refused_render(("--glossy-estimator", "swept-edges"), "--glossy-estimator", "radiance-stratified")
+        self.refused_render(("--method", "path", "--glossy", "cache"), "path")
         for flags in (("--error", "0.1", "--a", "0.3"), ("--a", "0.3", "--records", "9"), ("--records", "9", "--error", "0.1")):
             self.refused(2, ("render", BOX, *flags, "-o", "out.exr"), flags[0], flags[2], "give one")
         self.refused_render(("--min-pixels", "9", "--max-pixels", "8"), "--min-pixels 9", "--max-pixels 8")
