@@ -98,8 +98,7 @@ TEST(GlossyRule, GoesFromRaysToRecords) {
   float share = 0;
   for (float alpha = 0.05f; alpha <= 1; alpha += 0.005f) {
     const Bsdf bsdf = metal(alpha);
-    const int now = glossy_bands(method, bsdf);
-    const float share_now = cached_share(method, bsdf, wo);
+    const auto [now, share_now] = cached_lobe(method, bsdf, wo);
     if (now > 0) {
       EXPECT_LE(now, bands);
       bands = now;
@@ -110,11 +109,11 @@ TEST(GlossyRule, GoesFromRaysToRecords) {
   }
   EXPECT_EQ(share, 1);
   EXPECT_LE(bands, 3);
-  EXPECT_EQ(glossy_bands(method, metal(0.1f)), 0);
+  EXPECT_EQ(cached_lobe(method, metal(0.1f), wo).bands, 0);
   method.from = Glossy::rays;
-  EXPECT_EQ(cached_share(method, metal(0.8f), wo), 0);
+  EXPECT_EQ(cached_lobe(method, metal(0.8f), wo).share, 0);
   method.from = Glossy::cache;
-  EXPECT_EQ(cached_share(method, metal(0.21f), direction(1.5, 0)), 1);
+  EXPECT_EQ(cached_lobe(method, metal(0.21f), direction(1.5, 0)).share, 1);
 }
 
 }  // namespace

@@ -106,9 +106,8 @@ void Statistics::print() const {
     fmt::print("  bounds     {}\n", bounds);
     if (glossy && glossy->records > 0)
       fmt::print(
-          "  glossy     {} records of radiance ({:.1f} {} bands and {:.0f} rays each in the mean, {:.1f} MB), a = "
-          "{:g}, "
-          "estimator {}, metric {}\n",
+          "  glossy     {} records of radiance ({:.1f} {} bands and {:.0f} rays each in the mean, {:.1f} MB), "
+          "a = {:g}, estimator {}, metric {}\n",
           glossy->records, glossy->bands, name_of(glossy->method.basis), glossy->rays,
           static_cast<double>(glossy->bytes) / 1e6, glossy->method.settings.a, glossy->method.estimator->name,
           glossy->method.metric->name);

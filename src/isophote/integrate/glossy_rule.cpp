@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "isophote/integrate/glossy_lobes.h"
 
@@ -16,24 +15,24 @@ const float cos_45 = std::sqrt(0.5f);
 
 float falling(float x, float from, float to) { return std::clamp((to - x) / (to - from), 0.0f, 1.0f); }
 
-}  // namespace
-
-int glossy_bands(const GlossyMethod& method, const Bsdf& bsdf) {
-  if (!method.caches() || !bsdf.has_glossy() || bsdf.alpha < GlossyLobes::least_alpha) return 0;
-  const GlossyLobes& lobes = glossy_lobes(method.basis);
+int bands_for(const GlossyMethod& method, const GlossyLobes& lobes, float alpha) {
   for (int bands = 2; bands <= most_bands; ++bands)
-    if (lobes.truncation(bsdf.alpha, cos_45, bands) < missed_at_45) return bands;
+    if (lobes.truncation(alpha, cos_45, bands) < missed_at_45) return bands;
   return method.from == Glossy::cache ? most_bands : 0;
 }
 
-float cached_share(const GlossyMethod& method, const Bsdf& bsdf, const Vec3& wo) {
-  const int bands = glossy_bands(method, bsdf);
-  if (bands == 0) return 0;
-  if (method.from == Glossy::cache) return 1;
+}  // namespace
+
+CachedLobe cached_lobe(const GlossyMethod& method, const Bsdf& bsdf, const Vec3& wo) {
+  if (!method.caches() || !bsdf.has_glossy() || bsdf.alpha < GlossyLobes::least_alpha) return {};
   const GlossyLobes& lobes = glossy_lobes(method.basis);
+  const int bands = bands_for(method, lobes, bsdf.alpha);
+  if (bands == 0) return {};
+  if (method.from == Glossy::cache) return {bands, 1};
   const float by_view = lobes.truncation(bsdf.alpha, dot(wo, bsdf.frame.n), bands);
   const float by_roughness = lobes.truncation(bsdf.alpha, cos_45, most_bands);
-  return falling(by_view, missed_at_viewer, missed_by_far) * falling(by_roughness, missed_at_45 / 2, missed_at_45);
+  return {bands,
+          falling(by_view, missed_at_viewer, missed_by_far) * falling(by_roughness, missed_at_45 / 2, missed_at_45)};
 }
 
 }  // namespace isophote

@@ -48,7 +48,8 @@ std::optional<Place> wanted_place(const Job& job, const FirstPoint& seen, std::u
   const Bsdf& bsdf = seen.point->bsdf;
   Place place = at_point(job, seen, key);
   place.diffuse = bsdf.has_diffuse();
-  if (cached_share(job.method.glossy, bsdf, -seen.direction) > 0) place.bands = glossy_bands(job.method.glossy, bsdf);
+  const CachedLobe lobe = cached_lobe(job.method.glossy, bsdf, -seen.direction);
+  if (lobe.share > 0) place.bands = lobe.bands;
   if (!place.diffuse && place.bands == 0) return std::nullopt;
   return place;
 }

@@ -24,14 +24,21 @@ double best_distrust(const Job& job, const Regression& regression, std::size_t r
   return Regression::distrusts[static_cast<std::size_t>(std::min_element(sum.begin(), sum.end()) - sum.begin())];
 }
 
+// Radii are what they are, here and below; only the limits on extrapolation follow the new values.
+
 std::shared_ptr<RadianceCache> regressed_radiance(const Job& job, const RadianceCache& cache, RayCounts& counts) {
   const RadianceRegression regression(cache);
   std::vector<RadianceRecord> fitted(cache.records().size());
   counts += for_each(job.parallel, fitted.size(), 16, [&](std::size_t i, RayCounts& each) {
     fitted[i] = regression.fitted(static_cast<std::uint32_t>(i), LeakTest{job.world, each});
   });
+  Method settled = job.method;
+  settled.glossy.settings.bounds.neighbours = 0;
   auto result = std::make_shared<RadianceCache>(cache.bounds(), cache.basis());
-  for (RadianceRecord& record : fitted) result->insert(std::move(record));
+  for (RadianceRecord& record : fitted) {
+    const std::uint32_t id = result->insert(std::move(record));
+    settled.settle(result->settling(), {&id, 1});
+  }
   return result;
 }
 
@@ -44,7 +51,6 @@ RecordCache regressed(const Job& job, const RecordCache& cache, RayCounts& count
   counts += for_each(job.parallel, fitted.size(), 16, [&](std::size_t i, RayCounts& each) {
     fitted[i] = regression.fitted(static_cast<std::uint32_t>(i), distrust, LeakTest{job.world, each});
   });
-  // Radii are what they are; only the limits on extrapolation follow the new values.
   Method settled = job.method;
   settled.settings.bounds.neighbours = 0;
   RecordCache result(cache.bounds());

@@ -58,8 +58,8 @@ Reflection cached_reflection(const World& world, const FarLight& from, const Sur
                              RayCounts& counts) {
   const Bsdf& bsdf = point.bsdf;
   if (!from.glossy || !from.records || !from.records->radiance() || !bsdf.has_glossy()) return {};
-  const float share = cached_share(*from.glossy, bsdf, wo);
-  if (!(share > 0)) return {};
+  const CachedLobe cached = cached_lobe(*from.glossy, bsdf, wo);
+  if (!(cached.share > 0)) return {};
   const GlossyLobes& lobes = glossy_lobes(from.records->radiance()->basis());
   const Rgb albedo = specular_albedo(bsdf, dot(wo, bsdf.frame.n));
   const auto set_lobe = [&](Lobe& lobe, float cosine) {
@@ -69,8 +69,8 @@ Reflection cached_reflection(const World& world, const FarLight& from, const Sur
     const Rgb scale{ratio(0), ratio(1), ratio(2)};
     lobes.set(lobe, bsdf.alpha, cosine, bsdf.f0 * scale, scale * bsdf.f90);
   };
-  return {share, from.records->radiance()->reflect(query_at(point), wo, glossy_bands(*from.glossy, bsdf), set_lobe,
-                                                   LeakTest{world, counts})};
+  return {cached.share,
+          from.records->radiance()->reflect(query_at(point), wo, cached.bands, set_lobe, LeakTest{world, counts})};
 }
 
 /// Of the diffuse lobe, and of the glossy one where that is cached; of all lobes where a path takes over.
