@@ -61,9 +61,9 @@ def cost_of_rays(few, many, rmse):
 def roughness_rows(roughness, series):
     view = view_of(roughness)
     path = Point(view, "--method", "path", "--spp", SAMPLES)
-    rays = [Point(view, "--glossy", "rays", "--spp", samples) for samples in (SAMPLES // 4, SAMPLES)]
+    rays = [Point(view, "--glossy", "rays", "--spp", samples) for samples in (SAMPLES, 4 * SAMPLES)]
     rows = [[roughness, name, "", f"{p.cpu:.1f}", percent(p.rmse), percent(p.block), f"{100 * p.bias:+.2f}", "", ""]
-            for name, p in ((f"path, {SAMPLES} samples", path), (f"rays, {SAMPLES // 4} samples", rays[0]), (f"rays, {SAMPLES} samples", rays[1]))]
+            for name, p in ((f"path, {SAMPLES} samples", path), (f"rays, {SAMPLES} samples", rays[0]), (f"rays, {4 * SAMPLES} samples", rays[1]))]
     curve = []
     for asked in ERRORS:
         p = Point(view, "--glossy", "auto", "--error", asked, "--spp", SAMPLES)

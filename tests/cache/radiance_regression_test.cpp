@@ -79,5 +79,32 @@ TEST(RadianceRegression, DoesNotReachWhatIsHidden) {
   }
 }
 
+// What a tilt does to coefficients is not known, so that records of a bent surface say nothing of each other.
+TEST(RadianceRegression, LeavesABentSurfaceAlone) {
+  RadianceCache cache({{-1, -1, -1}, {1, 1, 1}}, Basis::hemispherical);
+  for (int n = 0; n < 40; ++n) {
+    const float angle = 0.1f * static_cast<float>(n);
+    RadianceRecord r;
+    r.position = r.normal = {std::cos(angle), std::sin(angle), 0};
+    r.footprint = Footprint::disk(0.3f, 1);
+    r.footprint.order = 1;
+    r.jet.rays = 100, r.jet.distances.harmonic_mean = 1;
+    for (int i = 0; i < count; ++i) r.jet.value.emplace_back(std::sin(3 * angle + static_cast<float>(i)));
+    r.jet.translational.x = r.jet.translational.y = Coefficients(count);
+    cache.insert(r);
+  }
+  const RadianceRegression regression(cache);
+  for (std::uint32_t id = 0; id < cache.records().size(); ++id)
+    for (int i = 0; i < count; ++i)
+      EXPECT_NEAR(regression.fitted(id, {}).jet.value[i].g, cache.records()[id].jet.value[i].g, 1e-6f);
+}
+
+TEST(RadianceRegression, LeavesOutNeighboursWithoutGradients) {
+  RadianceCache cache = plane(1);
+  for (std::uint32_t id = 1; id < cache.records().size(); ++id) cache.settling().records[id].jet.translational = {};
+  const RadianceRecord &before = cache.records()[0], after = RadianceRegression(cache).fitted(0, {});
+  for (int i = 0; i < count; ++i) EXPECT_NEAR(after.jet.value[i].r, before.jet.value[i].r, 1e-5f);
+}
+
 }  // namespace
 }  // namespace isophote::test

@@ -110,6 +110,10 @@ TEST(GlossyRule, GoesFromRaysToRecords) {
   EXPECT_EQ(share, 1);
   EXPECT_LE(bands, 3);
   EXPECT_EQ(cached_lobe(method, metal(0.1f), wo).bands, 0);
+  Bsdf varnish = metal(0.5f);
+  EXPECT_EQ(cached_lobe(method, varnish, wo).share, 1);
+  varnish.f0 = Rgb(0.04f);
+  EXPECT_EQ(cached_lobe(method, varnish, wo).share, 0);  // too faint for records
   method.from = Glossy::rays;
   EXPECT_EQ(cached_lobe(method, metal(0.8f), wo).share, 0);
   method.from = Glossy::cache;

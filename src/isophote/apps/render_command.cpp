@@ -5,6 +5,7 @@
 #include "isophote/apps/render_request.h"
 #include "isophote/apps/session.h"
 #include "isophote/apps/statistics.h"
+#include "isophote/cache/radiance_cache.h"
 #include "isophote/image/png.h"
 #include "isophote/integrate/record_maps.h"
 #include "isophote/integrate/record_picture.h"
@@ -75,6 +76,7 @@ class Rendering {
       build_rays_ = report.build_rays.total();
       note(report.final, Clock::now() - begin - report.build);
       cache.reindex();
+      if (cache.radiance()) cache.radiance()->reindex();
     } else {
       build(cache);
       statistics_.time.build = Clock::now() - begin;

@@ -118,7 +118,7 @@ constexpr Option table[] = {
      [](S& s, T t) { s.glossy_estimator = find_radiance_estimator(t).name; }, true},
     {"method", "glossy-metric", "NAME", "another metric for records of incident radiance than the method's",
      [](S& s, T t) { s.glossy_metric = find_metric(t).name; }, true},
-    {"method", "glossy-a", "A", "threshold of that metric (default: by --error, or else --a)",
+    {"method", "glossy-a", "A", "threshold of that metric (default: by --error, or the error that --a aims at)",
      [](S& s, T t) { s.glossy_a = number<float>(t, least_threshold, greatest_threshold); }, true},
     {"method", "glossy-basis", "spherical|hemispherical",
      "harmonics that hold incident radiance (default: hemispherical)", [](S& s, T t) { s.basis = basis(t); }, true},
@@ -189,7 +189,7 @@ GlossyMethod chosen_glossy(const RenderSettings& s, const Method& method) {
   if (!glossy.metric->measure_radiance)
     throw UsageError(fmt::format("--glossy-metric {}: this metric is for irradiance alone", glossy.metric->name));
   glossy.settings.a = s.glossy_a ? *s.glossy_a
-                      : s.a      ? *s.a
+                      : s.a      ? threshold(*glossy.metric, method.error())  // the same error, by its own scale
                                  : threshold(*glossy.metric, s.error.value_or(default_error));
   return glossy;
 }

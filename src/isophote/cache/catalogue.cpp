@@ -119,7 +119,7 @@ constexpr const Metric &split = row(metric_table, "split-sphere"), &bounded = ro
 constexpr float any_aspect = std::numeric_limits<float>::infinity();
 const RadiusBounds bounded_preset{.min_pixels = 1.5f, .max_pixels = 20, .gradient = true, .neighbours = 1};
 const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.08f, .max_view = 0.03f, .neighbours = 1};
-const RadiusBounds radiance_preset{.min_pixels = 1.5f, .max_view = 0.1f, .neighbours = 1};
+const RadiusBounds radiance_preset{.min_pixels = 1.5f, .min_view = 0.04f, .max_view = 0.1f, .neighbours = 1};
 const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = 1};
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.
@@ -175,7 +175,7 @@ const Method method_table[] = {
      true,
      true,
      true,
-     {Glossy::automatic, &radiance_aware, &bounded, {.bounds = radiance_preset}, Basis::hemispherical, 0.75f}},
+     {Glossy::automatic, &radiance_aware, &bounded, {.bounds = radiance_preset}, Basis::hemispherical, 2}},
 };
 
 template <class Table>
@@ -214,9 +214,12 @@ RadianceRecord Method::make_radiance_record(const HemisphereGather& gather, int 
   record.jet = glossy.estimator->estimate(gather, glossy.basis, bands);
   if (!leak_test) record.jet.distances.obstacles = {};
   record.footprint = glossy.metric->measure_radiance(record.jet, view, glossy.settings);
-  const float by_bands = std::pow(9.0f / static_cast<float>(bands), glossy.band_power);
-  record.footprint.unscaled *= by_bands;
-  record.footprint.resize(record.footprint.radius * by_bands);
+  const float by_bands = std::min(std::pow(9.0f / static_cast<float>(bands), glossy.band_power), 1 / glossy.settings.a);
+  if (by_bands != 1) {
+    Footprint& f = record.footprint;  // bounds are for the radius after all, so that they come last
+    f.resize((glossy.metric->scale ? f.unscaled * glossy.metric->scale(glossy.settings) : f.radius) * by_bands);
+    f.unscaled *= by_bands;
+  }
   record.footprint.order = static_cast<std::uint8_t>(std::min(order, glossy.estimator->order));
   return record;
 }

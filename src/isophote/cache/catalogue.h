@@ -65,7 +65,7 @@ enum class Secondary : std::uint8_t {
 /// What glossy lobes take the indirect light from that they reflect.
 enum class Glossy : std::uint8_t {
   rays,       ///< a ray of the lobe, followed
-  cache,      ///< records of incident radiance, whatever the roughness
+  cache,      ///< records of incident radiance, from the least roughness that there are tables for
   automatic,  ///< those where their bands hold the lobe, else a ray
 };
 
@@ -77,7 +77,7 @@ struct GlossyMethod {
   MetricSettings settings{};
   Basis basis = Basis::hemispherical;
   /// The more bands, the faster coefficients change from place to place: a record of n has the metric's radius times
-  /// (9 / n)^this. 0: all have the metric's, as published.
+  /// (9 / n)^this, at most what the threshold 1 gives. 0: all have the metric's, as published.
   float band_power = 0;
 
   bool caches() const { return from != Glossy::rays; }

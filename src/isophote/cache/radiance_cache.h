@@ -25,10 +25,14 @@ class RadianceCache : public RecordStore<RadianceRecord> {
 
   /// Does any record of at least `order` bands serve?
   bool covers(const Query& query, int order, OpenTest open = {}) const {
-    return any_serving(query, open, [&](const RadianceRecord& r) { return bands(r) >= order; });
+    return any_serving(query, open, [&](const RadianceRecord& r) { return holds(r, order); });
   }
 
   static int bands(const RadianceRecord& record);
+  /// Has it as many?
+  static bool holds(const RadianceRecord& record, int order) {
+    return record.jet.value.size() >= static_cast<std::size_t>(harmonics_count(order));
+  }
 
  private:
   Basis basis_;
@@ -48,7 +52,7 @@ std::optional<Rgb> RadianceCache::reflect(const Query& query, const Vec3& toward
   Rgb sum;
   visit_serving(query, open, [&](std::uint32_t id, float, float weight) {
     const RadianceRecord& record = records()[id];
-    if (bands(record) < order) return;
+    if (!holds(record, order)) return;
     const Frame frame(record.normal);
     const Vec3 local = frame.to_local(mirrored);
     constexpr float least = 1e-3f, alike = 1e-4f;

@@ -9,6 +9,9 @@ namespace {
 
 /// Radii that a neighbour may be away, of the smaller of the two: where its weight reaches 0.
 constexpr float neighbour_radii = 2;
+/// Cosine between normals of neighbours, at least. Coefficients do not say what a tilt does to them, so that on a bent
+/// surface the fit would take the bend for a change of the light.
+constexpr float alike = 0.998f;
 
 /// What a neighbour's value, and its gradient along u and v, count for in the value and in the gradient of the fit.
 struct Share {
@@ -75,7 +78,10 @@ RadianceRecord RadianceRegression::fitted(std::uint32_t id, OpenTest open) const
   if (record.jet.translational.x.empty()) return record;
   const int bands = RadianceCache::bands(record);
   auto around = neighbours_.around(neighbours_.records()[id], open);
-  std::erase_if(around, [&](const auto& n) { return RadianceCache::bands(*n.record) < bands; });
+  std::erase_if(around, [&](const auto& n) {
+    return !RadianceCache::holds(*n.record, bands) || n.record->jet.translational.x.empty() ||
+           dot(n.record->normal, record.normal) < alike;
+  });
   const Frame frame(record.normal);
   std::vector<Point> points;
   for (const auto& n : around) {

@@ -13,8 +13,8 @@ class RadianceRegression {
   /// Of all records as they are, which must stay so while this is used.
   explicit RadianceRegression(const RadianceCache& cache);
 
-  /// The record with its value and gradient after the fit. Neighbours that `open` finds hidden, and those of fewer
-  /// bands, are left out. Any thread may ask.
+  /// The record with its value and gradient after the fit. Neighbours that `open` finds hidden, those of fewer
+  /// bands or without gradients, and those that face another way are left out. Any thread may ask.
   RadianceRecord fitted(std::uint32_t id, OpenTest open) const;
 
  private:

@@ -22,7 +22,7 @@ RadianceJet incident_radiance(const HemisphereGather& gather, Basis basis, int o
     h.add<Rgbd>(h.over_ring(j), by_azimuth, sums);
   }
   RadianceJet jet;
-  for (const Rgbd& sum : sums) jet.value.emplace_back(sum);
+  jet.value = Coefficients(sums.begin(), sums.end());
   jet.rays = static_cast<std::uint32_t>(gather.samples.size());
   jet.distances.harmonic_mean = static_cast<float>(s.size() / inverse_distances);
   jet.distances.obstacles = obstacles(gather);

@@ -34,8 +34,8 @@ class RadianceGradientSum {
     h.add<Rgbd>(polar, rows.u, u_), h.add<Rgbd>(polar, rows.v, v_);
   }
   void store(RadianceJet& jet) const {
-    for (const Rgbd& g : u_) jet.translational.x.emplace_back(g);
-    for (const Rgbd& g : v_) jet.translational.y.emplace_back(g);
+    jet.translational.x = Coefficients(u_.begin(), u_.end());
+    jet.translational.y = Coefficients(v_.begin(), v_.end());
   }
 
  private:

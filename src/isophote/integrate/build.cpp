@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "isophote/cache/radiance_cache.h"
+#include "isophote/integrate/glossy_rule.h"
 #include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
 #include "isophote/integrate/pilot.h"
@@ -99,6 +100,10 @@ class Builder {
     const Bsdf& bsdf = seen.point->bsdf;
     return max_component(specular_albedo(bsdf, -dot(seen.direction, bsdf.frame.n))) > 0.25f;
   }
+  /// Does the final pass follow a glossy ray from here?
+  bool follows_ray(const FirstPoint& seen) const {
+    return cached_lobe(job_.method.glossy, seen.point->bsdf, -seen.direction).share < 1;
+  }
   /// What a glossy surface shows: there the final pass reads the cache too.
   FirstPoint reflected(const FirstPoint& seen, Sampler& stream, RayCounts& counts) const {
     FirstPoint next = glossy_ray(job_.world, *seen.point, -seen.direction, stream, counts).next;
@@ -119,7 +124,8 @@ class Builder {
         const FirstPoint seen = first_point(job_.world, job_.camera_ray(x, y, stream), true, stream, counts.camera);
         const std::uint64_t key = hash(job_.seed, x, y, sample);
         add_uncovered(seen, key, found[row], counts);
-        if (shines(seen)) add_uncovered(reflected(seen, stream, counts), hash(key), found[row], counts);
+        if (shines(seen) && follows_ray(seen))
+          add_uncovered(reflected(seen, stream, counts), hash(key), found[row], counts);
       }
     });
     std::vector<Candidate> all;
@@ -128,9 +134,18 @@ class Builder {
     return all;
   }
 
+  /// Where a survey learns what irradiance is like: where it is wanted, or anywhere where that is nowhere.
+  static std::vector<Place> to_survey(const std::vector<Candidate>& candidates) {
+    const bool any = std::any_of(candidates.begin(), candidates.end(), [](const auto& c) { return c.place.diffuse; });
+    std::vector<Place> places;
+    for (const Candidate& c : candidates)
+      if (places.size() < surveyed_places && (c.place.diffuse || !any)) places.push_back(c.place);
+    return places;
+  }
+
   /// Levels too coarse to show what the picture is like are left out.
   bool ready_to_survey(const std::vector<Candidate>& candidates) const {
-    return !must_survey(job_) || !cache_.records().empty() || candidates.size() >= surveyed_places;
+    return !must_survey(job_) || !cache_.records().empty() || to_survey(candidates).size() >= surveyed_places;
   }
 
   /// Before the first record, fills cells and surveys the picture, where the method wants that, the latter at the first
@@ -148,9 +163,7 @@ class Builder {
       job_.pilot = survey(job_, cache_, random_places(job_, report_.rays), report_.rays).pilot;
       return;
     }
-    std::vector<Place> places;
-    for (const Candidate& c : candidates)
-      if (places.size() < surveyed_places) places.push_back(c.place);
+    const std::vector<Place> places = to_survey(candidates);
     const Survey first = survey(job_, cache_, places, report_.rays);
     job_.pilot = first.pilot;
     const LeakTest open{job_.world, report_.rays};
@@ -204,7 +217,7 @@ class Builder {
     for (const std::uint32_t id : fresh.radiance) {
       if (place.bands == 0) break;
       const RadianceRecord& record = cache_.radiance()->records()[id];
-      const bool serves = RadianceCache::bands(record) >= place.bands && serving_error(record, query, open) < 1;
+      const bool serves = RadianceCache::holds(record, place.bands) && serving_error(record, query, open) < 1;
       if (serves) place.bands = 0;
       if (!serves) candidate.meet(record);
     }

@@ -11,6 +11,7 @@ namespace {
 constexpr int most_bands = 10;
 constexpr float missed_at_45 = 0.1f;                            // at most
 constexpr float missed_at_viewer = 0.2f, missed_by_far = 0.4f;  // all is cached up to the one, nothing from the other
+constexpr float faint = 0.1f, bright = 0.25f;  // albedos: nothing is cached up to the one, all from the other
 const float cos_45 = std::sqrt(0.5f);
 
 float falling(float x, float from, float to) { return std::clamp((to - x) / (to - from), 0.0f, 1.0f); }
@@ -31,8 +32,9 @@ CachedLobe cached_lobe(const GlossyMethod& method, const Bsdf& bsdf, const Vec3&
   if (method.from == Glossy::cache) return {bands, 1};
   const float by_view = lobes.truncation(bsdf.alpha, dot(wo, bsdf.frame.n), bands);
   const float by_roughness = lobes.truncation(bsdf.alpha, cos_45, most_bands);
-  return {bands,
-          falling(by_view, missed_at_viewer, missed_by_far) * falling(by_roughness, missed_at_45 / 2, missed_at_45)};
+  const float albedo = max_component(specular_albedo(bsdf, dot(wo, bsdf.frame.n)));
+  return {bands, falling(by_view, missed_at_viewer, missed_by_far) *
+                     falling(by_roughness, missed_at_45 / 2, missed_at_45) * (1 - falling(albedo, faint, bright))};
 }
 
 }  // namespace isophote

@@ -7,7 +7,8 @@ namespace isophote {
 
 // The one rule by which a glossy lobe's indirect light comes from records of incident radiance or from a ray. It is
 // measured in what a lobe's first bands miss of it (GlossyLobes::truncation): seen at 45 degrees that decides how many
-// bands there are, seen from where the viewer is, which may be along the surface, whether they will do.
+// bands there are, seen from where the viewer is, which may be along the surface, whether they will do. And a lobe that
+// reflects little, as a coat of varnish seen from above, is not worth records: few rays say as much of it.
 
 struct CachedLobe {
   int bands = 0;    ///< of the records of which a lobe of this roughness is read; 0: none are, rays are followed
