@@ -71,6 +71,11 @@ class Outputs(ProgramTest):
             self.assertEqual(self.stats(BOX, *quick("--seed", seed, "-o", seed + ".exr"))["seed"], int(seed))
         self.assertNotEqual((self.folder / "0.exr").read_bytes(), (self.folder / "1.exr").read_bytes())
 
+    def test_error_and_threshold_mean_the_same_for_radiance(self):
+        by_error = self.stats(BOX, *quick("--error", "0.1", "-o", "a.exr"))
+        by_threshold = self.stats(BOX, *quick("--a", str(by_error["parameters"]["a"]), "-o", "b.exr"))
+        self.assertAlmostEqual(by_threshold["glossy"]["a"], by_error["glossy"]["a"], 5)
+
     def test_records_are_kept_and_taken_up_again(self):
         first = self.stats(BOX, *quick("--save-cache", "records", "-o", "a.exr"))
         again = self.stats(BOX, *quick("--load-cache", "records", "-o", "b.exr"))

@@ -188,9 +188,9 @@ GlossyMethod chosen_glossy(const RenderSettings& s, const Method& method) {
   }
   if (!glossy.metric->measure_radiance)
     throw UsageError(fmt::format("--glossy-metric {}: this metric is for irradiance alone", glossy.metric->name));
-  glossy.settings.a = s.glossy_a ? *s.glossy_a
-                      : s.a      ? threshold(*glossy.metric, method.error())  // the same error, by its own scale
-                                 : threshold(*glossy.metric, s.error.value_or(default_error));
+  // The error that irradiance is to have, by this metric's own scale.
+  const double error = s.a ? method.error() : s.error.value_or(default_error);
+  glossy.settings.a = s.glossy_a.value_or(threshold(*glossy.metric, error));
   return glossy;
 }
 
