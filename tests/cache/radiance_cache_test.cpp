@@ -130,12 +130,11 @@ TEST(RadianceCache, RecordsOfTooFewBandsDoNotServe) {
 
 // Where bands that are left out leave a negative rest, nothing is reflected instead.
 TEST(RadianceCache, NeverNegative) {
-  RadianceRecord record = record_of(gather_floor(AnalyticRoom(AnalyticRoom::Walls::constant, false), 0.9, 0.8, {8, 25}),
-                                    Basis::hemispherical, 0.5f);
-  Lobe lobe;
-  lobe.order = order;
-  lobe.coefficients.fill(Rgb(-1.0f));
-  EXPECT_EQ(reflected(record, Frame(record.normal), {}, lobe, {1, 0}), Rgb{});
+  RadianceCache cache({{0, 0, 0}, {4, 3, 2.5f}}, Basis::hemispherical);
+  const HemisphereGather gather = gather_floor(AnalyticRoom(AnalyticRoom::Walls::constant, false), 0.9, 0.8, {8, 25});
+  cache.insert(record_of(gather, Basis::hemispherical, 0.5f));
+  const auto dark = [](Lobe& lobe, float) { lobe.coefficients.fill(Rgb(-1.0f)); };
+  EXPECT_EQ(cache.reflect({gather.position, {0, 0, 1}, {0, 0, 1}}, {0, 0, 1}, order, dark), Rgb{});
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ class RadianceCache : public RecordStore<RadianceRecord> {
   Basis basis() const { return basis_; }
 
   /// Radiance reflected at the query towards the unit vector `towards` by a lobe of `order` bands, the mean over the
-  /// records that serve it and have as many; nothing where there is none. set_lobe(lobe, cosine) sets the coefficients
-  /// of a lobe of that order for a viewer at that cosine.
+  /// records that serve it and have as many, and never negative; nothing where there is none. set_lobe(lobe, cosine)
+  /// sets the coefficients of a lobe of that order for a viewer at that cosine.
   ///
   /// The query's normal and a record's may differ, by the surface's bend or by a normal map (query.facing). Frames are
   /// aligned so that the mirror direction, where the lobe is, keeps its place in the world: the record's lobe is that
@@ -38,31 +38,36 @@ class RadianceCache : public RecordStore<RadianceRecord> {
   Basis basis_;
 };
 
-/// The product of a lobe with a record's radiance extrapolated to position + d. `viewer` is the viewer's direction, of
-/// any length, across the record's normal in its frame. Never negative.
-Rgb reflected(const RadianceRecord& record, const Frame& frame, const Vec3& d, const Lobe& lobe, Vec2 viewer);
+/// The product of a lobe with a record's radiance extrapolated to `across`, in the record's frame. It may be negative,
+/// for want of the bands that are left out.
+Rgb reflected(const RadianceRecord& record, Vec2 across, const TurnedLobe& lobe);
 
 template <class SetLobe>
 std::optional<Rgb> RadianceCache::reflect(const Query& query, const Vec3& towards, int order, SetLobe&& set_lobe,
                                           OpenTest open) const {
   const Vec3 mirrored = query.facing * (2 * dot(query.facing, towards)) - towards;
-  Lobe lobe;
-  lobe.order = order;
-  float set_at = -1, weights = 0;
+  Frame frame{};
+  std::optional<TurnedLobe> lobe;  // of records with this frame
+  float weights = 0;
   Rgb sum;
   visit_serving(query, open, [&](std::uint32_t id, float, float weight) {
     const RadianceRecord& record = records()[id];
     if (!holds(record, order)) return;
-    const Frame frame(record.normal);
-    const Vec3 local = frame.to_local(mirrored);
-    constexpr float least = 1e-3f, alike = 1e-4f;
-    const float cosine = std::clamp(local.z, least, 1.0f);
-    if (std::abs(cosine - set_at) > alike) set_lobe(lobe, set_at = cosine);
-    sum += reflected(record, frame, query.position - record.position, lobe, {-local.x, -local.y}) * weight;
+    if (!lobe || !(frame.n == record.normal)) {
+      frame = Frame(record.normal);
+      const Vec3 local = frame.to_local(mirrored);
+      constexpr float least = 1e-3f;
+      Lobe straight;
+      straight.order = order;
+      set_lobe(straight, std::clamp(local.z, least, 1.0f));
+      lobe.emplace(straight, Vec2{-local.x, -local.y});
+    }
+    const Vec3 d = query.position - record.position;
+    sum += reflected(record, {dot(d, frame.u), dot(d, frame.v)}, *lobe) * weight;
     weights += weight;
   });
   if (!(weights > 0)) return std::nullopt;
-  return sum / weights;
+  return max(sum / weights, Rgb{});
 }
 
 }  // namespace isophote

@@ -66,7 +66,8 @@ Pair lobe_at(const Vec3d& o, const Vec3d& i, double alpha) {
 
 }  // namespace
 
-GlossyLobes::GlossyLobes(Basis basis) : nodes_(static_cast<std::size_t>(roughnesses) * cosines) {
+GlossyLobes::GlossyLobes(Basis basis)
+    : nodes_(roughnesses * cosines), truncation_((most_order + 1) * nodes_.size(), 1.0f) {
   const Directions directions(basis);
   for (int r = 0; r < roughnesses; ++r)
     for (int c = 0; c < cosines; ++c) {
@@ -88,9 +89,9 @@ GlossyLobes::GlossyLobes(Basis basis) : nodes_(static_cast<std::size_t>(roughnes
           for (int m = 0; m <= l; ++m)
             sums[polar_index(l, m)] += by_azimuth[m] * (directions.weight(i) * directions.value(i, l, m));
       }
-      Node& node = nodes_[static_cast<std::size_t>(r) * cosines + c];
+      const std::size_t at = r * cosines + c;
+      Node& node = nodes_[at];
       double held = 0;
-      node.truncation[0] = 1;
       for (int l = 0; l < most_order; ++l) {
         for (int m = 0; m <= l; ++m) {
           const Pair& sum = sums[polar_index(l, m)];
@@ -98,27 +99,20 @@ GlossyLobes::GlossyLobes(Basis basis) : nodes_(static_cast<std::size_t>(roughnes
           node.by_f90[polar_index(l, m)] = static_cast<float>(sum.f90);
           held += sum.f0 * sum.f0;
         }
-        node.truncation[l + 1] = static_cast<float>(std::sqrt(std::max(0.0, 1 - held / whole)));
+        truncation_[(l + 1) * nodes_.size() + at] = static_cast<float>(std::sqrt(std::max(0.0, 1 - held / whole)));
       }
     }
 }
 
-/// Four nodes and what each counts for.
-struct GlossyLobes::Place {
-  std::array<std::size_t, 4> at;
-  std::array<float, 4> weights;
-
-  Place(float alpha, float cos_o) {
-    const float a =
-        (std::sqrt(std::clamp(alpha, least_alpha, 1.0f)) - least_root) / (1 - least_root) * (roughnesses - 1);
-    const float c = std::sqrt(std::clamp(cos_o, 0.0f, 1.0f)) * (cosines - 1);
-    const int i = std::clamp(static_cast<int>(a), 0, roughnesses - 2), j = std::min(static_cast<int>(c), cosines - 2);
-    const float s = a - static_cast<float>(i), t = c - static_cast<float>(j);
-    const std::size_t first = static_cast<std::size_t>(i) * cosines + j;
-    at = {first, first + 1, first + cosines, first + cosines + 1};
-    weights = {(1 - s) * (1 - t), (1 - s) * t, s * (1 - t), s * t};
-  }
-};
+GlossyLobes::Place::Place(float alpha, float cos_o) {
+  const float a = (std::sqrt(std::clamp(alpha, least_alpha, 1.0f)) - least_root) / (1 - least_root) * (roughnesses - 1);
+  const float c = std::sqrt(std::clamp(cos_o, 0.0f, 1.0f)) * (cosines - 1);
+  const int i = std::clamp(static_cast<int>(a), 0, roughnesses - 2), j = std::min(static_cast<int>(c), cosines - 2);
+  const float s = a - static_cast<float>(i), t = c - static_cast<float>(j);
+  const int first = i * cosines + j;
+  at = {first, first + 1, first + cosines, first + cosines + 1};
+  weights = {(1 - s) * (1 - t), (1 - s) * t, s * (1 - t), s * t};
+}
 
 void GlossyLobes::set(Lobe& lobe, float alpha, float cos_o, const Rgb& f0, const Rgb& f90) const {
   const Place place(alpha, cos_o);
@@ -132,10 +126,12 @@ void GlossyLobes::set(Lobe& lobe, float alpha, float cos_o, const Rgb& f0, const
   }
 }
 
-float GlossyLobes::truncation(float alpha, float cos_o, int order) const {
-  const Place place(alpha, cos_o);
+GlossyLobes::Truncation GlossyLobes::truncation(float alpha, float cos_o) const { return {*this, Place(alpha, cos_o)}; }
+
+float GlossyLobes::Truncation::operator[](int order) const {
+  const float* all = &lobes_->truncation_[order * lobes_->nodes_.size()];
   float sum = 0;
-  for (int i = 0; i < 4; ++i) sum += place.weights[i] * nodes_[place.at[i]].truncation[order];
+  for (int i = 0; i < 4; ++i) sum += place_.weights[i] * all[place_.at[i]];
   return sum;
 }
 

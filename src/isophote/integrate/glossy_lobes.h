@@ -20,17 +20,36 @@ class GlossyLobes {
   /// The lobe at `alpha` seen from `cos_o`, with reflectances `f0` and `f90`. lobe.order says how many bands.
   void set(Lobe& lobe, float alpha, float cos_o, const Rgb& f0, const Rgb& f90) const;
 
-  /// What the first `order` bands miss of the lobe (of f0 = 1, f90 = 0), relative, in the root of the mean square.
-  float truncation(float alpha, float cos_o, int order) const;
+  /// What the first `order` bands miss of the lobe (of f0 = 1, f90 = 0), relative, in the root of the mean square: of
+  /// all orders, by [order].
+  class Truncation;
+  Truncation truncation(float alpha, float cos_o) const;
 
  private:
   struct Node {
     std::array<float, polar_count(most_order)> by_f0, by_f90;
-    std::array<float, most_order + 1> truncation;
   };
-  struct Place;  // between nodes
+  /// Four nodes and what each counts for.
+  struct Place {
+    std::array<int, 4> at;
+    std::array<float, 4> weights;
+    Place(float alpha, float cos_o);
+  };
 
   std::vector<Node> nodes_;
+  std::vector<float> truncation_;  // of the nodes, an order after the other
+};
+
+class GlossyLobes::Truncation {
+ public:
+  float operator[](int order) const;
+
+ private:
+  friend class GlossyLobes;
+  Truncation(const GlossyLobes& lobes, const Place& place) : lobes_(&lobes), place_(place) {}
+
+  const GlossyLobes* lobes_;
+  Place place_;
 };
 
 /// The tables of a basis, made when first asked for.
