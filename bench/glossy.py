@@ -1,17 +1,22 @@
 """Glossy surfaces: radiance caching against paths and against rays that read irradiance alone; its gradients; its memory."""
 import json
 import math
+import statistics
 import struct
+import subprocess
 
 import png
-from measure import BUILD, ROOT, View, cost, error, percent, render, table
+from measure import BUILD, PROGRAM, ROOT, View, cost, error, percent, render, root_mean_square, table
 from plot import log_log
 
 SCENE = ROOT / "scenes" / "glossy-room.glb"
 ROUGHNESSES = (0.55, 0.65, 0.8)  # of all metal in the scene; GGX alpha is the square
 SIZE, REFERENCE = "512x384", 256
 SAMPLES = 64
-ERRORS = (0.1, 0.05, 0.03)
+ERRORS = ((0.1, 32), (0.05, 64), (0.03, 64), (0.02, 128))  # and the samples that go with them
+SEEDS = (1, 2, 3)
+ANGLES = ("0", "45", "75")
+RAMP = ROOT / "scenes" / "glossy-ramp.glb"
 GRADIENTS = {"none": "radiance", "unaware": "radiance-surface-area", "aware": "radiance-stratified"}
 
 
@@ -37,15 +42,29 @@ def view_of(roughness, camera="front"):
 
 
 class Point:
-    """One picture: statistics, CPU seconds, and the error of its colours."""
+    """Pictures of some seeds: CPU seconds and records in the mean, errors of the colours by root mean square, and bias in the mean."""
 
-    def __init__(self, view, *flags):
+    def __init__(self, view, *flags, seeds=SEEDS[:1]):
+        each = [self._one(view, *flags, "--seed", seed) for seed in seeds]
+        self.stats = each[0][0]
+        self.records = round(statistics.mean(s["glossy"]["records"] for s, _ in each)) if self.stats["glossy"] else ""
+        self.cpu, self.final = statistics.mean(cost(s) for s, _ in each), statistics.mean(s["cpu_seconds"]["final"] for s, _ in each)
+        self.rmse, self.block = (root_mean_square([e[key] for _, e in each]) for key in ("relative_rmse", "block_error"))
+        self.bias = statistics.mean(e["bias"] for _, e in each)
+
+    @staticmethod
+    def _one(view, *flags):
         picture = BUILD / "glossy.exr"
-        self.stats = render(view, *flags, "--no-check", output=picture)
-        e = error(view, picture, "")
-        self.cpu, self.final = cost(self.stats), self.stats["cpu_seconds"]["final"]
-        self.rmse, self.block, self.bias = e["relative_rmse"], e["block_error"], e["bias"]
+        stats = render(view, *flags, "--no-check", output=picture)
+        errors = error(view, picture, "")
         picture.unlink()
+        return stats, errors
+
+    def row(self, *names):
+        return [*names, self.records, f"{self.cpu:.1f}", percent(self.rmse), percent(self.block), f"{100 * self.bias:+.2f}"]
+
+
+HEADER = ("records of radiance", "CPU s", "RMSE %", "block %", "bias %")
 
 
 def cost_of_rays(few, many, rmse):
@@ -62,19 +81,26 @@ def roughness_rows(roughness, series):
     view = view_of(roughness)
     path = Point(view, "--method", "path", "--spp", SAMPLES)
     rays = [Point(view, "--glossy", "rays", "--spp", samples) for samples in (SAMPLES, 4 * SAMPLES)]
-    rows = [[roughness, name, "", f"{p.cpu:.1f}", percent(p.rmse), percent(p.block), f"{100 * p.bias:+.2f}", "", ""]
+    rows = [[*p.row(roughness, name), "", ""]
             for name, p in ((f"path, {SAMPLES} samples", path), (f"rays, {SAMPLES} samples", rays[0]), (f"rays, {4 * SAMPLES} samples", rays[1]))]
     curve = []
-    for asked in ERRORS:
-        p = Point(view, "--glossy", "auto", "--error", asked, "--spp", SAMPLES)
+    for asked, samples in ERRORS:
+        p = Point(view, "--glossy", "auto", "--error", asked, "--spp", samples, seeds=SEEDS)
         gain = path.cpu * (path.rmse / p.rmse) ** 2 / p.cpu
         over_rays = cost_of_rays(*rays, p.rmse) / p.cpu
-        rows.append([roughness, f"cached, error {asked}", p.stats["glossy"]["records"], f"{p.cpu:.1f}", percent(p.rmse), percent(p.block),
-                     f"{100 * p.bias:+.2f}", f"{gain:.1f}", f"{over_rays:.1f}" if math.isfinite(over_rays) else "out of reach"])
+        rows.append([*p.row(roughness, f"cached, error {asked}, {samples} samples"), f"{gain:.1f}",
+                     f"{over_rays:.1f}" if math.isfinite(over_rays) else "out of reach"])
         curve.append((p.cpu, p.rmse))
     series[f"cached, {roughness}"] = curve
     series[f"rays, {roughness}"] = [(p.cpu, p.rmse) for p in rays]
     return rows
+
+
+def shown(view, name, *flags):
+    """A picture for a sheet."""
+    picture = BUILD / f"glossy-{name}.png"
+    render(view, *flags, "--exposure", -1, "--no-check", output=picture)
+    return name, png.read(picture)
 
 
 def gradients():
@@ -83,16 +109,40 @@ def gradients():
     for name, estimator in GRADIENTS.items():
         flags = ("--method", "krivanek2005b", "--glossy-estimator", estimator, "--glossy-a", 0.5, "--rays", 3200, "--error", 0.03, "--spp", 16,
                  "--secondary", "records")
-        picture = BUILD / f"glossy-{name}.png"
-        p = Point(view, *flags)
-        render(view, *flags, "--exposure", -1, "--no-check", output=picture)
-        rows.append([name, p.stats["glossy"]["records"], percent(p.rmse), percent(p.block), f"{100 * p.bias:+.2f}"])
-        cells.append((name, png.read(picture)))
-    picture = BUILD / "glossy-paths.png"
-    render(view, "--method", "path", "--spp", REFERENCE, "--exposure", -1, output=picture)
-    cells.append(("paths", png.read(picture)))
+        rows.append(Point(view, *flags).row(name))
+        cells.append(shown(view, name, *flags))
+    cells.append(shown(view, "paths", "--method", "path", "--spp", REFERENCE))
     png.sheet(ROOT / "docs" / "figures" / "glossy-gradients.png", [cells])
     return rows
+
+
+def adaptive():
+    """Radii that adapt, against as many records of smaller ones that do not."""
+    view = view_of(0.65, "floor")
+    flags = ("--method", "krivanek2006", "--rays", 1600, "--error", 0.03, "--spp", 16, "--secondary", "records")
+    return [Point(view, *flags, "--glossy-contrast", contrast, "--glossy-a", a).row(contrast, a) for contrast, a in ((0, 0.5), (0.1, 0.5), (0, 0.44))]
+
+
+def windows():
+    view = view_of(0.65, "floor")
+    return [Point(view, "--error", 0.03, "--spp", 32, "--glossy-window", window).row(window) for window in ("off", "on")]
+
+
+def lobes():
+    """What so many bands miss of a metal's lobe, and the rule."""
+    rows = []
+    for roughness, of in json.loads(subprocess.run([str(PROGRAM.parent / "bench_lobes")], check=True, capture_output=True, text=True).stdout).items():
+        missed = [" / ".join(f"{100 * of[angle][bands]:.1f}" for angle in ANGLES) for bands in ("4", "6", "8", "10", "12")]
+        rows.append([roughness, *missed, of["bands"] or "rays", " / ".join(f"{of[angle]['share']:.2f}" for angle in ANGLES)])
+    return rows
+
+
+def ramp():
+    """From rays to records along a floor: the block error, and two pictures."""
+    view = View("glossy-ramp", RAMP, SIZE, REFERENCE, "front")
+    cells = [shown(view, "cached", "--error", 0.02, "--spp", REFERENCE), shown(view, "paths", "--method", "path", "--spp", 4 * REFERENCE)]
+    png.sheet(ROOT / "docs" / "figures" / "glossy-ramp.png", [cells])
+    return [Point(view, "--error", 0.02, "--spp", SAMPLES, "--glossy", source).row(source) for source in ("rays", "auto", "cache")]
 
 
 def memory():
@@ -121,12 +171,23 @@ def section():
     series = {}
     rows = [row for roughness in ROUGHNESSES for row in roughness_rows(roughness, series)]
     log_log(ROOT / "docs" / "figures" / "glossy.svg", "glossy room: error over CPU", "CPU seconds", "relative RMSE of the colours", series)
-    return (f"## Glossy surfaces\n\n`scenes/glossy-room.glb`, all its metal of one roughness, {SIZE}, whole pictures with direct light. *rays* is `cached --glossy rays`: "
-            "glossy rays followed to where they read irradiance. *gain* is the CPU to equal RMSE of path tracing over that of radiance caching, and of "
-            "*rays*, whose error is continued from its two points as a constant part and one that falls with the samples:\n\n" +
-            table(["roughness", "picture", "records of radiance", "CPU s", "RMSE %", "block %", "bias %", "gain over paths", "over rays"], rows) +
-            "\n\n![error over CPU](figures/glossy.svg)\n\nEqual CPU time, roughness 0.65: " + pair() + ".\n\n![cached and paths](figures/glossy-equal-time.png)\n\n"
-            "Gradients at equal records (method `krivanek2005b`, 3200 rays a record, roughness 0.65):\n\n" +
-            table(["gradient", "records of radiance", "RMSE %", "block %", "bias %"], gradients()) +
-            "\n\n![gradients](figures/glossy-gradients.png)\n\nRecords of radiance and their memory, method `cached`, 640x480:\n\n" +
-            table(["scene", "records", "bands in the mean", "rays in the mean", "kB a record", "MB"], memory()))
+    parts = (
+        f"`scenes/glossy-room.glb`, all its metal of one roughness, {SIZE}, whole pictures with direct light; `cached` in the mean over {len(SEEDS)} seeds, "
+        "the others of one. *rays* is `cached --glossy rays`: glossy rays followed to where they read irradiance. *gain* is the CPU to equal RMSE of path "
+        "tracing over that of radiance caching, and of *rays*, whose error is continued from its two points as a constant part and one that falls with the "
+        "samples:", table(["roughness", "picture", *HEADER, "gain over paths", "over rays"], rows), "![error over CPU](figures/glossy.svg)",
+        "Equal CPU time, roughness 0.65: " + pair() + ".", "![cached and paths](figures/glossy-equal-time.png)",
+        "Gradients at equal records (method `krivanek2005b`, 3200 rays a record, roughness 0.65):", table(["gradient", *HEADER], gradients()),
+        "![gradients](figures/glossy-gradients.png)",
+        "Adaptive radii (method `krivanek2006`, 1600 rays a record, roughness 0.65), and as many records of a smaller threshold without them:",
+        table(["contrast", "a", *HEADER], adaptive()),
+        "Hanning's window (`--glossy-window`), roughness 0.65: the rule leaves little that rings, and the window takes more than that.",
+        table(["window", *HEADER], windows()),
+        "What so many bands of hemispherical harmonics miss of a metal's lobe, seen at 0 / 45 / 75 degrees from the normal, in % of its root mean square, and "
+        "what `--glossy auto` makes of it: bands, and the share that records say:",
+        table(["roughness", "4 bands", "6", "8", "10", "12", "auto: bands", "share"], lobes()),
+        "From rays to records: the floor of `scenes/glossy-ramp.glb`, whose roughness grows from 0.35 at the left to 0.75 at the right (error 0.02):",
+        table(["glossy lobes by", *HEADER], ramp()), "![cached and paths](figures/glossy-ramp.png)",
+        "Records of radiance and their memory, method `cached`, 640x480:",
+        table(["scene", "records", "bands in the mean", "rays in the mean", "kB a record", "MB"], memory()))
+    return "## Glossy surfaces\n\n" + "\n\n".join(parts)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from program import BOX, SCENES, ProgramTest, quick
 
-METHODS = ("path", "ward1988", "ward1992", "bounded", "krivanek2005a", "krivanek2005b", "jarosz2012", "schwarzhaupt2012", "swept", "uniform", "cached")
+METHODS = ("path", "ward1988", "ward1992", "bounded", "krivanek2005a", "krivanek2005b", "krivanek2006", "jarosz2012", "schwarzhaupt2012", "swept", "uniform", "cached")
 
 
 class BadUsage(ProgramTest):
@@ -43,6 +43,7 @@ class BadUsage(ProgramTest):
         self.refused_render(("--secondary", "records", "--max-depth", "3"), "--max-depth")
         self.refused_render(("--records", "100", "--order", "lazy"), "--records")
         self.refused_render(("--regress", "on", "--order", "lazy"), "--regress")
+        self.refused_render(("--glossy-contrast", "0.1", "--order", "lazy"), "--glossy-contrast")
         self.refused_render(("--regress", "on", "--method", "cached", "--estimator", "ward-heckbert", "--metric", "split-sphere"), "--regress", "gradients")
         self.refused_render(("--regress", "on", "--method", "cached", "--estimator", "triangulated"), "--regress", "errors", "triangulated")
         self.refused_render(("--regress", "on", "--leak-test", "off"), "--regress", "--leak-test")

@@ -91,6 +91,26 @@ TEST(GlossyLobes, TruncationIsAsKnown) {
     }
 }
 
+// Of a lobe too narrow for its bands the ripples are what a window takes away, and the albedo what it leaves.
+TEST(GlossyLobes, WindowedOnesRingLess) {
+  const Bsdf bsdf = metal(0.2f);
+  const Vec3 wo = direction(0.8, 0);
+  const GlossyLobes& lobes = glossy_lobes(Basis::hemispherical);
+  Lobe plain, windowed;
+  plain.order = windowed.order = 8;
+  SurfaceLobe(lobes, bsdf, wo, false)(plain, wo.z), SurfaceLobe(lobes, bsdf, wo, true)(windowed, wo.z);
+  const auto deepest = [](const Lobe& lobe) {
+    float least = 0;
+    for (int i = 0; i < 40; ++i)
+      for (int k = 0; k < 40; ++k)
+        least = std::min(least, value(lobe, Basis::hemispherical, direction(i * 0.04, k * 0.16)).g);
+    return least;
+  };
+  EXPECT_LT(deepest(plain), -0.03f);
+  EXPECT_GT(deepest(windowed), deepest(plain) / 4);
+  EXPECT_EQ(windowed.coefficients[0], plain.coefficients[0]);
+}
+
 TEST(GlossyRule, GoesFromRaysToRecords) {
   GlossyMethod method{.from = Glossy::automatic};
   const Vec3 wo = direction(0.5, 1);

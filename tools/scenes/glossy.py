@@ -2,22 +2,37 @@
 
 from .gltf import Gltf
 from .hard import panel, room
-from .shapes import arc, box, icosphere, lathe, wall
+from .pictures import linear_byte, png
+from .shapes import arc, box, icosphere, lathe, quad, wall
 
 STRIPS = (0.4, 0.55, 0.7, 0.85)  # roughness of the floor's strips
+RAMP = (0.35, 0.75)  # and from where to where it grows where it is one
 
 
-def glossy_room():
-    """A room lit from a cove against a red and a blue wall; its floor is metal of four roughnesses, a screen hangs over it."""
+def strips(g):
+    """A metal floor of four roughnesses."""
+    for i, roughness in enumerate(STRIPS):
+        metal = g.material("metal %.2f" % roughness, (0.75, 0.73, 0.7), metallic=1.0, roughness=roughness, specular=1)
+        g.add("floor %.2f" % roughness, panel(1.5 * i, 1.5 * i + 1.5, 0, 6, 0, up=True), metal)
+
+
+def ramp(g):
+    """A metal floor whose roughness grows from left to right."""
+    width = 256
+    rough = png(width, 1, lambda x, y: (0, linear_byte(RAMP[0] + (RAMP[1] - RAMP[0]) * x / (width - 1)), 255))
+    metal = g.material("metal", (0.75, 0.73, 0.7), metallic=1.0, specular=1, metallicRoughnessTexture={"index": g.texture("roughness", rough, "clamp")})
+    g.add("floor", quad((0, 0, 6), (6, 0, 6), (6, 0, 0), (0, 0, 0)), metal)
+
+
+def glossy_room(add_floor=strips):
+    """A room lit from a cove against a red and a blue wall; its floor is metal, a screen hangs over it."""
     g = Gltf()
     white, red, blue = (g.material(n, c) for n, c in (("white", (0.75, 0.75, 0.72)), ("red", (0.65, 0.08, 0.05)),
                                                      ("blue", (0.08, 0.15, 0.6))))
     g.add("ceiling and back", room((0, 0, 0), (6, 3, 6), without=("-x", "+x", "-y")), white)
     g.add("left wall", wall((0, 0, 6), (0, 0, 0), (0, 3, 0), (0, 3, 6)), red)
     g.add("right wall", wall((6, 0, 0), (6, 0, 6), (6, 3, 6), (6, 3, 0)), blue)
-    for i, roughness in enumerate(STRIPS):
-        metal = g.material("metal %.2f" % roughness, (0.75, 0.73, 0.7), metallic=1.0, roughness=roughness, specular=1)
-        g.add("floor %.2f" % roughness, panel(1.5 * i, 1.5 * i + 1.5, 0, 6, 0, up=True), metal)
+    add_floor(g)
     # Lamps that shine at the red wall's upper part and at the back, hidden from the camera by their black backs.
     lamp = g.lamp("lamp", (60.0, 52.0, 40.0))
     black = g.material("back of lamps", (0.02, 0.02, 0.02))
@@ -38,6 +53,10 @@ def glossy_room():
     g.camera("front", (3, 1.7, 5.9), (3, 0.7, 2), 60, 4 / 3)
     g.camera("floor", (0.8, 0.9, 5.6), (3.2, 0, 2.6), 50, 4 / 3)
     return g
+
+
+def glossy_ramp():
+    return glossy_room(ramp)
 
 
 def glossy_ring():

@@ -37,8 +37,9 @@ void check_size(int width, int height) {
 
 std::string glossy_settings(const GlossyMethod& g) {
   if (!g.caches()) return std::string(name_of(g.from));
-  return fmt::format("{}, {}, {}, {}, a = {}", name_of(g.from), g.estimator->name, g.metric->name, name_of(g.basis),
-                     g.settings.a);
+  return fmt::format("{}, {}, {}, {}, a = {}, {}, by bands {}, contrast {}", name_of(g.from), g.estimator->name,
+                     g.metric->name, name_of(g.basis), g.settings.a, describe(g.settings.bounds), g.band_power,
+                     g.contrast);
 }
 
 /// What shapes records, for the record file. The view and the seed do not matter: records of another view or seed serve

@@ -21,9 +21,9 @@ struct RenderSettings {
   std::optional<int> rays;  ///< of a record; 0: as many as the error asks; none: the method's own
   std::optional<int> max_depth, records;
   std::optional<Secondary> secondary;
-  std::optional<bool> leak_test, regress;
+  std::optional<bool> leak_test, regress, glossy_window;
   std::optional<Glossy> glossy;
-  std::optional<float> glossy_a;
+  std::optional<float> glossy_a, glossy_contrast;
   std::optional<Basis> basis;
   bool lazy = false;
   std::optional<float> min_pixels, max_pixels, min_view, max_view, min_radius, max_radius;

@@ -79,6 +79,10 @@ struct GlossyMethod {
   /// The more bands, the faster coefficients change from place to place: a record of n has the metric's radius times
   /// (9 / n)^this, at most what the threshold 1 gives. 0: all have the metric's, as published.
   float band_power = 0;
+  /// What records may differ by where they overlap, of what is reflected, before they shrink (adapt_radii.h); 0: by
+  /// anything.
+  float contrast = 0;
+  bool window = false;  ///< are lobes windowed? (lobe.h)
 
   bool caches() const { return from != Glossy::rays; }
 };

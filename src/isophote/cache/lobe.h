@@ -16,7 +16,11 @@ struct Lobe {
   std::array<Rgb, polar_count(most_order)> coefficients;
 };
 
-/// The same with the viewer at another azimuth, by `harmonic_index`.
+/// Hanning's window: the later a band, the less of it counts, so that a lobe that is cut off does not ring. What a lobe
+/// makes of light that is the same from everywhere stays.
+void apply_window(Lobe& lobe);
+
+/// A lobe with the viewer at another azimuth, by `harmonic_index`.
 class TurnedLobe {
  public:
   /// `viewer` is the viewer's direction, of any length, across the normal.

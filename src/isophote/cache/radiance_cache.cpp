@@ -8,6 +8,13 @@ int RadianceCache::bands(const RadianceRecord& record) {
   return static_cast<int>(std::lround(std::sqrt(static_cast<float>(record.jet.value.size()))));
 }
 
+void apply_window(Lobe& lobe) {
+  for (int l = 1; l < lobe.order; ++l) {
+    const float kept = (1 + std::cos(pi * static_cast<float>(l) / static_cast<float>(lobe.order))) / 2;
+    for (int m = 0; m <= l; ++m) lobe.coefficients[polar_index(l, m)] *= kept;
+  }
+}
+
 TurnedLobe::TurnedLobe(const Lobe& lobe, Vec2 viewer) : order_(lobe.order) {
   const float size = std::sqrt(viewer.x * viewer.x + viewer.y * viewer.y);
   const float cos_phi = size > 0 ? viewer.x / size : 1, sin_phi = size > 0 ? viewer.y / size : 0;

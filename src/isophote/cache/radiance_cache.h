@@ -23,6 +23,12 @@ class RadianceCache : public RecordStore<RadianceRecord> {
   std::optional<Rgb> reflect(const Query& query, const Vec3& towards, int order, SetLobe&& set_lobe,
                              OpenTest open = {}) const;
 
+  /// The same record by record: visit(id, error, weight, reflected), as in `visit_serving`; what is reflected may be
+  /// negative.
+  template <class SetLobe, class Visit>
+  void visit_reflected(const Query& query, const Vec3& towards, int order, SetLobe&& set_lobe, OpenTest open,
+                       Visit&& visit) const;
+
   /// Does any record of at least `order` bands serve?
   bool covers(const Query& query, int order, OpenTest open = {}) const {
     return any_serving(query, open, [&](const RadianceRecord& r) { return holds(r, order); });
@@ -42,15 +48,13 @@ class RadianceCache : public RecordStore<RadianceRecord> {
 /// for want of the bands that are left out.
 Rgb reflected(const RadianceRecord& record, Vec2 across, const TurnedLobe& lobe);
 
-template <class SetLobe>
-std::optional<Rgb> RadianceCache::reflect(const Query& query, const Vec3& towards, int order, SetLobe&& set_lobe,
-                                          OpenTest open) const {
+template <class SetLobe, class Visit>
+void RadianceCache::visit_reflected(const Query& query, const Vec3& towards, int order, SetLobe&& set_lobe,
+                                    OpenTest open, Visit&& visit) const {
   const Vec3 mirrored = query.facing * (2 * dot(query.facing, towards)) - towards;
   Frame frame{};
   std::optional<TurnedLobe> lobe;  // of records with this frame
-  float weights = 0;
-  Rgb sum;
-  visit_serving(query, open, [&](std::uint32_t id, float, float weight) {
+  visit_serving(query, open, [&](std::uint32_t id, float error, float weight) {
     const RadianceRecord& record = records()[id];
     if (!holds(record, order)) return;
     if (!lobe || !(frame.n == record.normal)) {
@@ -63,7 +67,17 @@ std::optional<Rgb> RadianceCache::reflect(const Query& query, const Vec3& toward
       lobe.emplace(straight, Vec2{-local.x, -local.y});
     }
     const Vec3 d = query.position - record.position;
-    sum += reflected(record, {dot(d, frame.u), dot(d, frame.v)}, *lobe) * weight;
+    visit(id, error, weight, reflected(record, {dot(d, frame.u), dot(d, frame.v)}, *lobe));
+  });
+}
+
+template <class SetLobe>
+std::optional<Rgb> RadianceCache::reflect(const Query& query, const Vec3& towards, int order, SetLobe&& set_lobe,
+                                          OpenTest open) const {
+  float weights = 0;
+  Rgb sum;
+  visit_reflected(query, towards, order, set_lobe, open, [&](std::uint32_t, float, float weight, const Rgb& each) {
+    sum += each * weight;
     weights += weight;
   });
   if (!(weights > 0)) return std::nullopt;

@@ -52,6 +52,12 @@ class RecordStore {
   std::uint32_t insert(R record);
   /// The records, for `settle` to change between insertions. Radii may only shrink: the index does not follow.
   SettlingOf<R> settling() { return {records_, neighbours_}; }
+  /// Makes a radius so much smaller, within its bounds, of which this is one from now on.
+  void shrink(std::uint32_t id, float by) {
+    Footprint& footprint = records_[id].footprint;
+    footprint.largest = std::max(footprint.smallest, footprint.radius * by);
+    footprint.resize(footprint.largest);
+  }
   /// Builds the index anew, tight about footprints that have shrunk.
   void reindex();
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "isophote/cache/radiance_cache.h"
+#include "isophote/integrate/adapt_radii.h"
 #include "isophote/integrate/glossy_rule.h"
 #include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
@@ -54,6 +55,7 @@ class Builder {
       if (!ready_to_survey(candidates)) continue;
       begin_with_survey(candidates);
       cover(std::move(candidates));
+      adapt(stride, 0);
       if (job_.progress.preview) job_.progress.preview(coarse_picture(job_, cache_, stride));
     }
     const double pixels = static_cast<double>(job_.width) * job_.height;
@@ -65,6 +67,7 @@ class Builder {
       const bool enough = static_cast<double>(left.size()) < good_coverage * pixels;
       cover(std::move(left));
       if (enough) break;
+      adapt(1, pass % job_.samples);
     }
     cache_.reindex();
     if (cache_.radiance()) cache_.radiance()->reindex();
@@ -201,6 +204,11 @@ class Builder {
       ++report_.rounds;
       job_.progress.tell("build", done_ + (1 - static_cast<double>(kept) / all) * share_);
     }
+  }
+
+  void adapt(int stride, int sample) {
+    if (job_.method.glossy.contrast > 0 && cache_.radiance() && !report_.cancelled)
+      adapt_radii(job_, *cache_.radiance(), stride, sample, report_.rays);
   }
 
   /// What fresh records serve a candidate no longer wants; the others it meets.

@@ -135,6 +135,14 @@ float GlossyLobes::Truncation::operator[](int order) const {
   return sum;
 }
 
+void SurfaceLobe::operator()(Lobe& lobe, float cosine) const {
+  const Rgb there = specular_albedo(bsdf_, cosine);
+  const auto ratio = [&](int c) { return there[c] > 0 ? albedo_[c] / there[c] : 1; };
+  const Rgb scale{ratio(0), ratio(1), ratio(2)};
+  lobes_.set(lobe, bsdf_.alpha, cosine, bsdf_.f0 * scale, scale * bsdf_.f90);
+  if (window_) apply_window(lobe);
+}
+
 const GlossyLobes& glossy_lobes(Basis basis) {
   if (basis == Basis::spherical) {
     static const GlossyLobes spherical(Basis::spherical);

@@ -5,6 +5,7 @@
 #include "isophote/cache/lobe.h"
 #include "isophote/core/rgb.h"
 #include "isophote/harmonics/basis.h"
+#include "isophote/scene/bsdf.h"
 
 namespace isophote {
 
@@ -54,5 +55,21 @@ class GlossyLobes::Truncation {
 
 /// The tables of a basis, made when first asked for.
 const GlossyLobes& glossy_lobes(Basis basis);
+
+/// The lobe of a surface towards a viewer, as records with other normals need it (RadianceCache::reflect): for another
+/// elevation, but reflecting as much light as at the surface's own; windowed, where asked.
+class SurfaceLobe {
+ public:
+  SurfaceLobe(const GlossyLobes& lobes, const Bsdf& bsdf, const Vec3& wo, bool window)
+      : lobes_(lobes), bsdf_(bsdf), albedo_(specular_albedo(bsdf, dot(wo, bsdf.frame.n))), window_(window) {}
+
+  void operator()(Lobe& lobe, float cosine) const;
+
+ private:
+  const GlossyLobes& lobes_;
+  const Bsdf& bsdf_;
+  Rgb albedo_;
+  bool window_;
+};
 
 }  // namespace isophote

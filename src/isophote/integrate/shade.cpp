@@ -60,17 +60,9 @@ Reflection cached_reflection(const World& world, const FarLight& from, const Sur
   if (!from.glossy || !from.records || !from.records->radiance() || !bsdf.has_glossy()) return {};
   const CachedLobe cached = cached_lobe(*from.glossy, bsdf, wo);
   if (!(cached.share > 0)) return {};
-  const GlossyLobes& lobes = glossy_lobes(from.records->radiance()->basis());
-  const Rgb albedo = specular_albedo(bsdf, dot(wo, bsdf.frame.n));
-  const auto set_lobe = [&](Lobe& lobe, float cosine) {
-    // Of a record with another normal the lobe is for another elevation; the light it reflects stays that of this one.
-    const Rgb there = specular_albedo(bsdf, cosine);
-    const auto ratio = [&](int c) { return there[c] > 0 ? albedo[c] / there[c] : 1; };
-    const Rgb scale{ratio(0), ratio(1), ratio(2)};
-    lobes.set(lobe, bsdf.alpha, cosine, bsdf.f0 * scale, scale * bsdf.f90);
-  };
-  return {cached.share,
-          from.records->radiance()->reflect(query_at(point), wo, cached.bands, set_lobe, LeakTest{world, counts})};
+  const RadianceCache& cache = *from.records->radiance();
+  const SurfaceLobe lobe(glossy_lobes(cache.basis()), bsdf, wo, from.glossy->window);
+  return {cached.share, cache.reflect(query_at(point), wo, cached.bands, lobe, LeakTest{world, counts})};
 }
 
 /// Of the diffuse lobe, and of the glossy one where that is cached; of all lobes where a path takes over.

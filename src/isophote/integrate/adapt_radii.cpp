@@ -1,0 +1,69 @@
+#include "isophote/integrate/adapt_radii.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "isophote/integrate/glossy_lobes.h"
+#include "isophote/integrate/glossy_rule.h"
+#include "isophote/integrate/leak_test.h"
+#include "isophote/integrate/shade.h"
+
+namespace isophote {
+namespace {
+
+/// A record that serves a place. As a limit: what it is to shrink to, of its radius.
+struct Overlap {
+  std::uint32_t id;
+  float error, weight = 0, reflected = 0;
+};
+
+/// Adds to `limits` those of the records at one place that differ from the one that weighs most.
+void compare(const std::vector<Overlap>& here, float contrast, std::vector<Overlap>& limits) {
+  if (here.size() < 2) return;
+  const Overlap& best =
+      *std::max_element(here.begin(), here.end(), [](const auto& a, const auto& b) { return a.weight < b.weight; });
+  for (const Overlap& o : here)
+    if (std::abs(o.reflected - best.reflected) > contrast * std::max(o.reflected, best.reflected))
+      limits.push_back({o.id, std::max(o.error, 0.5f)});
+}
+
+void compare_at(const Job& job, const RadianceCache& cache, const FirstPoint& seen, std::vector<Overlap>& here,
+                std::vector<Overlap>& limits, RayCounts& counts) {
+  const SurfacePoint& point = *seen.point;
+  const Vec3 wo = -seen.direction;
+  const GlossyMethod& method = job.method.glossy;
+  const CachedLobe cached = cached_lobe(method, point.bsdf, wo);
+  if (!(cached.share > 0)) return;
+  const SurfaceLobe lobe(glossy_lobes(cache.basis()), point.bsdf, wo, method.window);
+  here.clear();
+  cache.visit_reflected(query_at(point), wo, cached.bands, lobe, LeakTest{job.world, counts},
+                        [&](std::uint32_t id, float error, float weight, const Rgb& reflected) {
+                          here.push_back({id, error, weight, std::max(0.0f, luminance(reflected))});
+                        });
+  compare(here, method.contrast, limits);
+}
+
+}  // namespace
+
+void adapt_radii(const Job& job, RadianceCache& cache, int stride, int sample, RayCounts& counts) {
+  const auto rows = static_cast<std::size_t>((job.height + stride - 1 - stride / 2) / stride);
+  std::vector<std::vector<Overlap>> limits(rows);
+  counts += for_each(job.parallel, rows, 1, [&](std::size_t row, RayCounts& mine) {
+    std::vector<Overlap> here;
+    const int y = stride / 2 + static_cast<int>(row) * stride;
+    for (int x = stride / 2; x < job.width; x += stride) {
+      Sampler stream = job.sampler(x, y, sample);
+      const FirstPoint seen = first_point(job.world, job.camera_ray(x, y, stream), true, stream, mine.camera);
+      if (seen.point) compare_at(job, cache, seen, here, limits[row], mine);
+    }
+  });
+  // Whatever the order, the least limit of a record is the one that counts.
+  std::vector<float> least(cache.records().size(), 1.0f);
+  for (const auto& row : limits)
+    for (const Overlap& limit : row) least[limit.id] = std::min(least[limit.id], limit.error);
+  for (std::uint32_t id = 0; id < least.size(); ++id)
+    if (least[id] < 1) cache.shrink(id, least[id]);
+}
+
+}  // namespace isophote
