@@ -26,8 +26,14 @@ Place at_point(const Job& job, const FirstPoint& seen, std::uint64_t key) {
   return {p.position, p.geometric_normal, p.shading_normal, pixel, p.offset, p.medium, key};
 }
 
-/// `rays`, but that bands need some to tell them apart.
-Strata strata_for_bands(int rays, int bands) { return Strata::about(std::max(rays, 3 * bands * bands / 2)); }
+/// Where rays adapt, those that irradiance needs, times this a band: the more bands, the smaller the part of the
+/// hemisphere from which their lobe takes light, and the more rays it takes to be as sure of it.
+constexpr float rays_by_band = 0.4f;
+
+Strata strata_for_bands(const Method& method, int rays, int bands) {
+  if (method.adaptive) rays = static_cast<int>(static_cast<float>(rays) * std::max(1.0f, rays_by_band * bands));
+  return Strata::about(std::max(rays, 3 * bands * bands / 2));  // which bands need to be told apart
+}
 
 }  // namespace
 
@@ -114,7 +120,7 @@ NewRecords make_records(const Job& job, const RecordCache& cache, const Place& p
     made.irradiance = method.make_record(place.position, place.normal, jet, view);
     return made;
   }
-  gather_at(job, cache, place, strata_for_bands(strata.size(), place.bands), scratch, left, counts);
+  gather_at(job, cache, place, strata_for_bands(method, strata.size(), place.bands), scratch, left, counts);
   if (place.diffuse) made.irradiance = method.make_record(scratch, view);
   made.radiance = method.make_radiance_record(scratch, place.bands, view);
   return made;
