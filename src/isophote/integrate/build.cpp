@@ -21,9 +21,10 @@ constexpr std::size_t batch_size = 64;
 /// A round is filled up to this size with points nearer to each other than they should be, rather than leave threads
 /// idle.
 constexpr std::size_t least_batch = 8;
-/// Passes over all pixels, one sample each, end when one finds fewer than this part of them uncovered.
-constexpr double good_coverage = 1e-4;
-constexpr int most_passes = 16;
+/// Passes over all pixels, one sample each, end when one finds fewer than this part of them uncovered. Those few are
+/// left so: a record there could shrink its neighbours and uncover more, which nobody would look for.
+constexpr double good_coverage = 2e-4;
+constexpr int most_passes = 32;
 
 /// An uncovered point of the picture. `reach` is the radius that a record here is expected to have: that of the record
 /// nearest in terms of its own footprint.
@@ -64,9 +65,8 @@ class Builder {
       std::vector<Candidate> left = uncovered(1, pass % job_.samples);
       begin_with_survey(left);
       ++report_.passes;
-      const bool enough = static_cast<double>(left.size()) < good_coverage * pixels;
+      if (static_cast<double>(left.size()) < good_coverage * pixels) break;
       cover(std::move(left));
-      if (enough) break;
       adapt(1, pass % job_.samples);
     }
     cache_.reindex();
