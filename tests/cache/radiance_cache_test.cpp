@@ -125,7 +125,17 @@ TEST(RadianceCache, RecordsOfTooFewBandsDoNotServe) {
   cache.insert(record_of(gather, Basis::hemispherical, 0.5f));
   EXPECT_TRUE(cache.covers(query, order));
   EXPECT_TRUE(reflect(cache, gather.position, {0, 0, 1}, viewers[0]));
+}
+
+TEST(RadianceCache, TheOtherSideIsNotServed) {
+  RadianceCache cache({{0, 0, 0}, {4, 3, 2.5f}}, Basis::hemispherical);
+  const HemisphereGather gather = gather_floor(AnalyticRoom(AnalyticRoom::Walls::constant, false), 0.9, 0.8, {8, 25});
+  RadianceRecord record = record_of(gather, Basis::hemispherical, 0.5f);
+  record.footprint = Footprint::disk(0.5f, 0.1f);  // that hardly minds how a surface is turned
+  cache.insert(record);
+  EXPECT_TRUE(reflect(cache, gather.position, {0, 0, 1}, viewers[0]));
   EXPECT_FALSE(cache.covers({gather.position, {0, 0, -1}, {0, 0, -1}}, order));
+  EXPECT_FALSE(cache.reflect({gather.position, {0, 0, -1}, {0, 0, -1}}, {0, 0, -1}, order, [](Lobe&, float) {}));
 }
 
 // Where bands that are left out leave a negative rest, nothing is reflected instead.

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "isophote/cache/radiance_cache.h"
+#include "isophote/cache/radiance_regression.h"
 #include "isophote/cache/record_file.h"
 #include "isophote/core/error.h"
 #include "support/sign_record_file.h"
@@ -38,7 +39,15 @@ void reflect(const RadianceCache& cache, const RadianceRecord& record, const Vec
   if (found && !(is_finite(*found) && std::min({found->r, found->g, found->b}) >= 0)) std::abort();
 }
 
-/// What was accepted can be indexed and looked up, and is written back as it was.
+/// As many as there were, each fitted to its neighbours.
+RadianceCache fitted(const RadianceCache& cache) {
+  const RadianceRegression regression(cache);
+  RadianceCache result(cache.bounds(), cache.basis());
+  for (std::uint32_t id = 0; id < cache.records().size(); ++id) result.insert(regression.fitted(id, {}));
+  return result;
+}
+
+/// What was accepted can be indexed, fitted and looked up, and is written back as it was.
 void use(const std::string& path, const std::string& bytes) {
   const RecordFile file = read_records(path);
   RecordCache cache({{0, 0, 0}, {1, 1, 1}});
@@ -48,8 +57,9 @@ void use(const std::string& path, const std::string& bytes) {
       look_up(cache, record, offset);
   RadianceCache radiance(cache.bounds(), file.basis);
   for (const RadianceRecord& record : file.radiance) radiance.insert(record);
-  for (const RadianceRecord& record : file.radiance)
-    for (const Vec3& offset : {Vec3{}, Vec3{0.5f, 0, 0}, Vec3{0, 0, 0.5f}}) reflect(radiance, record, offset);
+  for (const RadianceCache& each : {radiance, fitted(radiance)})
+    for (const RadianceRecord& record : each.records())
+      for (const Vec3& offset : {Vec3{}, Vec3{0.5f, 0, 0}, Vec3{0, 0, 0.5f}}) reflect(each, record, offset);
   write_records(path, file);
   if (content(path) != bytes) std::abort();
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "isophote/sampling/warp.h"
+#include "lit_floor.h"
 #include "render.h"
-#include "support/scenes.h"
 
 namespace isophote {
 namespace {
@@ -12,21 +12,6 @@ namespace {
 using statistics::Estimate;
 using statistics::expect_mean;
 using statistics::expect_same_mean;
-
-Scene floor_of(const Material& material) {
-  Scene scene;
-  scene.meshes.push_back(scenes::quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}, scenes::add(scene, material)));
-  return scene;
-}
-
-/// A horizontal square lamp of radiance 3 above the floor's middle, shining down.
-Scene floor_with_lamp(const Material& material, float height, bool double_sided = false) {
-  Scene scene = floor_of(material);
-  Material lamp = scenes::emissive(Rgb(0.0f), Rgb(3.0f));
-  lamp.double_sided = double_sided;
-  scene.meshes.push_back(scenes::quad({-0.5f, height, -0.5f}, {1, 0, 0}, {0, 0, 1}, scenes::add(scene, lamp)));
-  return scene;
-}
 
 /// Irradiance under the middle of that lamp, by the form factor of a rectangle seen from below its corner, four times.
 double lamp_irradiance(double height) {
@@ -191,11 +176,7 @@ struct SingleStrategies {
 
 /// A shiny floor under a lamp and a sky with peaks.
 Scene shiny_floor_with_lamp(float roughness) {
-  Material shiny = scenes::diffuse({0.3f, 0.5f, 0.7f});
-  shiny.specular = 1;
-  shiny.ior = 2.5f;
-  shiny.roughness = roughness;
-  Scene scene = floor_with_lamp(shiny, 0.8f);
+  Scene scene = floor_with_lamp(shiny(roughness), 0.8f);
   scene.environment.radiance = RgbImage(32, 16, Rgb(0.01f));
   for (int x = 8; x < 12; ++x) scene.environment.radiance.at(x, 5) = Rgb(6.0f);
   return scene;
