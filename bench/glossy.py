@@ -119,7 +119,7 @@ def gradients():
 def adaptive():
     """Radii that adapt, against as many records of smaller ones that do not."""
     view = view_of(0.65, "floor")
-    flags = ("--method", "krivanek2006", "--rays", 1600, "--error", 0.03, "--spp", 16, "--secondary", "records")
+    flags = ("--method", "krivanek2006", "--rays", 3200, "--error", 0.03, "--spp", 16, "--secondary", "records")
     return [Point(view, *flags, "--glossy-contrast", contrast, "--glossy-a", a).row(contrast, a) for contrast, a in ((0, 0.5), (0.1, 0.5), (0, 0.44))]
 
 
@@ -179,7 +179,7 @@ def section():
         "Equal CPU time, roughness 0.65: " + pair() + ".", "![cached and paths](figures/glossy-equal-time.png)",
         "Gradients at equal records (method `krivanek2005b`, 3200 rays a record, roughness 0.65):", table(["gradient", *HEADER], gradients()),
         "![gradients](figures/glossy-gradients.png)",
-        "Adaptive radii (method `krivanek2006`, 1600 rays a record, roughness 0.65), and as many records of a smaller threshold without them:",
+        "Adaptive radii (method `krivanek2006`, 3200 rays a record, roughness 0.65), and as many records of a smaller threshold without them:",
         table(["contrast", "a", *HEADER], adaptive()),
         "Hanning's window (`--glossy-window`), roughness 0.65: the rule leaves little that rings, and the window takes more than that.",
         table(["window", *HEADER], windows()),
