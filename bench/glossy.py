@@ -47,7 +47,7 @@ class Point:
     def __init__(self, view, *flags, seeds=SEEDS[:1]):
         each = [self._one(view, *flags, "--seed", seed) for seed in seeds]
         self.stats = each[0][0]
-        self.records = round(statistics.mean(s["glossy"]["records"] for s, _ in each)) if self.stats["glossy"] else ""
+        self.records = round(statistics.mean(s["glossy"]["records"] for s, _ in each)) if self.stats.get("glossy") else ""
         self.cpu, self.final = statistics.mean(cost(s) for s, _ in each), statistics.mean(s["cpu_seconds"]["final"] for s, _ in each)
         self.rmse, self.block = (root_mean_square([e[key] for _, e in each]) for key in ("relative_rmse", "block_error"))
         self.bias = statistics.mean(e["bias"] for _, e in each)
