@@ -121,9 +121,8 @@ constexpr Option table[] = {
     {"method", "glossy-basis", "spherical|hemispherical",
      "harmonics that hold incident radiance (default: hemispherical)", [](S& s, T t) { s.basis = basis(t); }, true},
     {"method", "glossy-contrast", "C",
-     "records of incident radiance shrink where they overlap and differ by more than this part of what is reflected; "
-     "0: "
-     "they do not (method krivanek2006: 0.1)",
+     "part of what is reflected by which records of incident radiance may differ where they overlap, before they "
+     "shrink; 0: any (method krivanek2006: 0.1)",
      [](S& s, T t) { s.glossy_contrast = number<float>(t, 0, 1); }, true},
     {"method", "glossy-window", "on|off",
      "do the later harmonics of a lobe count less (Hanning's window), against ringing? (default: off)",
