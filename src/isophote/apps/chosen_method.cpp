@@ -50,10 +50,15 @@ GlossyMethod chosen_glossy(const RenderSettings& s, const Method& method) {
   }
   if (!glossy.metric->measure_radiance)
     throw UsageError(fmt::format("--glossy-metric {}: this metric is for irradiance alone", glossy.metric->name));
-  if (glossy.metric->bounded)
+  if (glossy.metric->bounded) {
     apply_bounds(s, glossy.settings.bounds);
-  else
+  } else {
+    // Without a floor, what noise makes records differ by would shrink them to nothing.
+    if (s.glossy_contrast.value_or(0) > 0)
+      throw UsageError(fmt::format("--glossy-contrast wants a metric with bounds: not {}", glossy.metric->name));
     glossy.settings.bounds = {};
+    glossy.contrast = 0;
+  }
   glossy.settings.falloff = s.weight;
   // The error that irradiance is to have, by this metric's own scale.
   const double error = s.a ? method.error() : s.error.value_or(default_error);

@@ -12,24 +12,37 @@
 namespace isophote {
 namespace {
 
-/// A record that serves a place. As a limit: what it is to shrink to, of its radius.
-struct Overlap {
+/// What a record is to shrink to, of its radius.
+struct Limit {
   std::uint32_t id;
-  float error, weight = 0, reflected = 0;
+  float part;
 };
 
+/// A record that serves a place, and the part of its radius with which it just would.
+struct Overlap {
+  Limit rim;
+  float weight, reflected;
+};
+
+/// Of an error, the part by the way from the record grows as the radius shrinks, that by the turn of the normal does
+/// not.
+float part_to_rim(const Site& record, const Vec3& position, float error) {
+  const float away = std::sqrt(quadratic_form(record.footprint.shape, position - record.position));
+  return record.footprint.falloff == Falloff::tabellion ? away : away / (1 - std::max(0.0f, error - away));
+}
+
 /// Adds to `limits` those of the records at one place that differ from the one that weighs most.
-void compare(const std::vector<Overlap>& here, float contrast, std::vector<Overlap>& limits) {
+void compare(const std::vector<Overlap>& here, float contrast, std::vector<Limit>& limits) {
   if (here.size() < 2) return;
   const Overlap& best =
       *std::max_element(here.begin(), here.end(), [](const auto& a, const auto& b) { return a.weight < b.weight; });
   for (const Overlap& o : here)
     if (std::abs(o.reflected - best.reflected) > contrast * std::max(o.reflected, best.reflected))
-      limits.push_back({o.id, std::max(o.error, 0.5f)});
+      limits.push_back({o.rim.id, std::max(o.rim.part, 0.5f)});
 }
 
 void compare_at(const Job& job, const RadianceCache& cache, const FirstPoint& seen, std::vector<Overlap>& here,
-                std::vector<Overlap>& limits, RayCounts& counts) {
+                std::vector<Limit>& limits, RayCounts& counts) {
   const SurfacePoint& point = *seen.point;
   const Vec3 wo = -seen.direction;
   const GlossyMethod& method = job.method.glossy;
@@ -39,7 +52,8 @@ void compare_at(const Job& job, const RadianceCache& cache, const FirstPoint& se
   here.clear();
   cache.visit_reflected(query_at(point), wo, cached.bands, lobe, LeakTest{job.world, counts},
                         [&](std::uint32_t id, float error, float weight, const Rgb& reflected) {
-                          here.push_back({id, error, weight, std::max(0.0f, luminance(reflected))});
+                          const float part = part_to_rim(cache.records()[id], point.position, error);
+                          here.push_back({{id, part}, weight, std::max(0.0f, luminance(reflected))});
                         });
   compare(here, method.contrast, limits);
 }
@@ -48,7 +62,7 @@ void compare_at(const Job& job, const RadianceCache& cache, const FirstPoint& se
 
 void adapt_radii(const Job& job, RadianceCache& cache, int stride, int sample, RayCounts& counts) {
   const auto rows = static_cast<std::size_t>((job.height + stride - 1 - stride / 2) / stride);
-  std::vector<std::vector<Overlap>> limits(rows);
+  std::vector<std::vector<Limit>> limits(rows);
   counts += for_each(job.parallel, rows, 1, [&](std::size_t row, RayCounts& mine) {
     std::vector<Overlap> here;
     const int y = stride / 2 + static_cast<int>(row) * stride;
@@ -61,7 +75,7 @@ void adapt_radii(const Job& job, RadianceCache& cache, int stride, int sample, R
   // Whatever the order, the least limit of a record is the one that counts.
   std::vector<float> least(cache.records().size(), 1.0f);
   for (const auto& row : limits)
-    for (const Overlap& limit : row) least[limit.id] = std::min(least[limit.id], limit.error);
+    for (const Limit& limit : row) least[limit.id] = std::min(least[limit.id], limit.part);
   for (std::uint32_t id = 0; id < least.size(); ++id)
     if (least[id] < 1) cache.shrink(id, least[id]);
 }

@@ -21,8 +21,8 @@ constexpr std::size_t batch_size = 64;
 /// A round is filled up to this size with points nearer to each other than they should be, rather than leave threads
 /// idle.
 constexpr std::size_t least_batch = 8;
-/// Passes over all pixels, one sample each, end when one finds fewer than this part of them uncovered. Those few are
-/// left so: a record there could shrink its neighbours and uncover more, which nobody would look for.
+/// Passes over all pixels, one sample each, end when one finds fewer than this part of them uncovered. Where records
+/// limit their neighbours those few are left so: one there could uncover more, which nobody would look for.
 constexpr double good_coverage = 2e-4;
 constexpr int most_passes = 32;
 
@@ -65,9 +65,10 @@ class Builder {
       std::vector<Candidate> left = uncovered(1, pass % job_.samples);
       begin_with_survey(left);
       ++report_.passes;
-      if (static_cast<double>(left.size()) < good_coverage * pixels) break;
-      cover(std::move(left));
-      adapt(1, pass % job_.samples);
+      const bool last = static_cast<double>(left.size()) < good_coverage * pixels;
+      if (!last || !shrinks_others()) cover(std::move(left));
+      if (last) break;
+      if (pass + 1 < most_passes) adapt(1, pass % job_.samples);
     }
     cache_.reindex();
     if (cache_.radiance()) cache_.radiance()->reindex();
@@ -96,16 +97,13 @@ class Builder {
     found.push_back(candidate);
   }
 
-  /// Are reflections here worth records of their own? Where they are faint, the few samples behind them that no record
-  /// covers may as well be paths.
-  static bool shines(const FirstPoint& seen) {
+  /// Are reflections here that the final pass follows rays for worth records of their own? Where they are faint, the
+  /// few samples behind them that no record covers may as well be paths.
+  bool shines(const FirstPoint& seen) const {
     if (!seen.point || !seen.point->bsdf.has_glossy()) return false;
     const Bsdf& bsdf = seen.point->bsdf;
-    return max_component(specular_albedo(bsdf, -dot(seen.direction, bsdf.frame.n))) > 0.25f;
-  }
-  /// Does the final pass follow a glossy ray from here?
-  bool follows_ray(const FirstPoint& seen) const {
-    return cached_lobe(job_.method.glossy, seen.point->bsdf, -seen.direction).share < 1;
+    const float by_rays = 1 - cached_lobe(job_.method.glossy, bsdf, -seen.direction).share;
+    return by_rays * max_component(specular_albedo(bsdf, -dot(seen.direction, bsdf.frame.n))) > 0.25f;
   }
   /// What a glossy surface shows: there the final pass reads the cache too.
   FirstPoint reflected(const FirstPoint& seen, Sampler& stream, RayCounts& counts) const {
@@ -127,8 +125,7 @@ class Builder {
         const FirstPoint seen = first_point(job_.world, job_.camera_ray(x, y, stream), true, stream, counts.camera);
         const std::uint64_t key = hash(job_.seed, x, y, sample);
         add_uncovered(seen, key, found[row], counts);
-        if (shines(seen) && follows_ray(seen))
-          add_uncovered(reflected(seen, stream, counts), hash(key), found[row], counts);
+        if (shines(seen)) add_uncovered(reflected(seen, stream, counts), hash(key), found[row], counts);
       }
     });
     std::vector<Candidate> all;
@@ -184,6 +181,12 @@ class Builder {
         for (const Record& record : cache_.records()) c.meet(record);
       return false;
     });
+  }
+
+  /// Can a new record uncover what others covered?
+  bool shrinks_others() const {
+    const GlossyMethod& glossy = job_.method.glossy;
+    return job_.method.metric->settle || (glossy.caches() && (glossy.metric->settle_radiance || glossy.contrast > 0));
   }
 
   /// Rounds, until records cover all candidates.

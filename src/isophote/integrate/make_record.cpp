@@ -31,7 +31,8 @@ Place at_point(const Job& job, const FirstPoint& seen, std::uint64_t key) {
 constexpr float rays_by_band = 0.4f;
 
 Strata strata_for_bands(const Method& method, int rays, int bands) {
-  if (method.adaptive) rays = static_cast<int>(static_cast<float>(rays) * std::max(1.0f, rays_by_band * bands));
+  if (method.adaptive)
+    rays = std::min(most_rays, static_cast<int>(static_cast<float>(rays) * std::max(1.0f, rays_by_band * bands)));
   return Strata::about(std::max(rays, 3 * bands * bands / 2));  // which bands need to be told apart
 }
 

@@ -9,8 +9,10 @@ float split_sphere_radius(float harmonic_mean, float a) { return harmonic_mean *
 
 Footprint split_sphere(const DistanceStats& distances, const View& view, float a) {
   const float r = std::min(distances.harmonic_mean, view.scene_scale);
-  Footprint footprint = Footprint::disk(std::max(split_sphere_radius(r, a), smallest_radius * view.scene_scale), 1 / a);
+  const float smallest = smallest_radius * view.scene_scale;
+  Footprint footprint = Footprint::disk(std::max(split_sphere_radius(r, a), smallest), 1 / a);
   footprint.unscaled = r;
+  footprint.smallest = smallest;
   return footprint;
 }
 
