@@ -10,6 +10,7 @@
 #include "isophote/image/image.h"
 #include "isophote/scene/camera.h"
 #include "isophote/scene/material.h"
+#include "isophote/scene/medium.h"
 #include "isophote/scene/texture.h"
 
 namespace isophote {
@@ -54,6 +55,7 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<PunctualLight> lights;
   EnvironmentMap environment;
+  std::vector<Medium> media;    ///< at most 32
   std::vector<Camera> cameras;  ///< never empty after loading
 
   Box bounds() const;
