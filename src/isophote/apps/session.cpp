@@ -122,8 +122,10 @@ void Session::prepare() {
   } catch (const UserError& error) {
     throw UserError(fmt::format("{}: {}", request_.scene, error.what()));
   }
-  job_.emplace(Job{
-      World{loaded_.scene, *rays_, *emitters_, settings_.max_depth.value_or(std::numeric_limits<int>::max())}, camera});
+  if (!loaded_.scene.media.empty()) media_.emplace(loaded_.scene);
+  job_.emplace(Job{World{loaded_.scene, *rays_, *emitters_,
+                         settings_.max_depth.value_or(std::numeric_limits<int>::max()), media_ ? &*media_ : nullptr},
+                   camera});
   Job& job = *job_;
   job.height = settings_.height.value_or(512);
   job.width = settings_.width.value_or(

@@ -109,7 +109,7 @@ class Builder {
   }
   /// What a glossy surface shows: there the final pass reads the cache too.
   FirstPoint reflected(const FirstPoint& seen, Sampler& stream, RayCounts& counts) const {
-    FirstPoint next = glossy_ray(job_.world, *seen.point, -seen.direction, stream, counts).next;
+    FirstPoint next = glossy_ray(job_.world.clear(), *seen.point, -seen.direction, stream, counts).next;
     next.path_length += seen.path_length;
     next.depth += seen.depth + 1;
     return next;
@@ -124,7 +124,8 @@ class Builder {
       for (std::size_t column = 0; column < columns; ++column) {
         const int x = stride / 2 + static_cast<int>(column) * stride, y = stride / 2 + static_cast<int>(row) * stride;
         Sampler stream = job_.sampler(x, y, sample);
-        const FirstPoint seen = first_point(job_.world, job_.camera_ray(x, y, stream), true, stream, counts.camera);
+        const FirstPoint seen =
+            first_point(job_.world.clear(), job_.camera_ray(x, y, stream), true, stream, counts.camera);
         const std::uint64_t key = hash(job_.seed, x, y, sample);
         add_uncovered(seen, key, found[row], counts);
         if (shines(seen) && follows_ray(seen))

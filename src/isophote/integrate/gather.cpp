@@ -10,10 +10,7 @@ namespace {
 
 Rgb scattered_radiance(const World& world, const FarLight& from, const FirstPoint& hit, int depth, Sampler& sampler,
                        RayCounts& counts) {
-  if (from.none()) {
-    const Scattered s = scatter(world, *hit.point, -hit.direction, depth, sampler, counts);
-    return s.direct + s.indirect;
-  }
+  if (from.none() || hit.medium_point) return path_radiance(world, hit, depth, sampler, counts);
   const Shaded s = shade(world, from, *hit.point, -hit.direction, hit.path_length, depth, sampler, counts);
   return s.direct + s.indirect;
 }
@@ -23,7 +20,7 @@ GatherSample gather_sample(const World& world, const FarLight& from, const Ray& 
   const FirstPoint hit = first_point(world, ray, false, sampler, counts.gather, medium);
   GatherSample sample{ray.direction, hit.first_distance, hit.emission, hit.first_normal, hit.first_mesh};
   const int depth = 1 + hit.depth;
-  if (hit.point && depth < world.max_depth)
+  if (hit.scatters() && depth < world.max_depth)
     sample.radiance += hit.throughput * scattered_radiance(world, from, hit, depth, sampler, counts);
   return sample;
 }

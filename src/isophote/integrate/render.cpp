@@ -23,9 +23,15 @@ Seen shade_sample(const Job& job, const RecordCache* cache, const Ray& ray, cons
   Seen result;
   PixelSample& out = result.sample;
   out.direct = seen.emission;
-  if (seen.first_distance == infinity) return result;
+  const float distance = seen.first_distance < infinity ? seen.first_distance : seen.path_length;
+  if (distance == infinity) return result;
   out.alpha = 1;
-  out.depth = seen.first_distance * dot(ray.direction, job.camera.forward);
+  out.depth = distance * dot(ray.direction, job.camera.forward);
+  if (seen.medium_point) {
+    const Scattered light = scatter(job.world, *seen.medium_point, seen.direction, seen.depth, stream, counts);
+    out.direct += seen.throughput * light.direct;
+    out.indirect = seen.throughput * light.indirect;
+  }
   if (!seen.point) return result;
   const SurfacePoint& point = *seen.point;
   const Vec3 wo = -seen.direction;
