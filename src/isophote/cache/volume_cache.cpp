@@ -17,20 +17,20 @@ constexpr float most_exponent = 2;
 class Mean {
  public:
   /// Of value * exp(exponent).
-  void add_logarithm(float weight, float value, float exponent) {
+  void add_logarithm(double weight, double value, float exponent) {
     if (!(log_weights_ > 0)) unit_ = value;
-    logarithms_ += weight * (std::log(value / unit_) + exponent);
+    logarithms_ += weight * (std::log(value / unit_) + static_cast<double>(exponent));
     log_weights_ += weight;
   }
-  void add(float weight, float value) { values_ += weight * value, weights_ += weight; }
+  void add(double weight, double value) { values_ += weight * value, weights_ += weight; }
   float get() const {
-    const float geometric = log_weights_ > 0 ? log_weights_ * unit_ * std::exp(logarithms_ / log_weights_) : 0;
-    return std::max(0.0f, (geometric + values_) / (log_weights_ + weights_));
+    const double geometric = log_weights_ > 0 ? log_weights_ * unit_ * std::exp(logarithms_ / log_weights_) : 0;
+    return static_cast<float>(std::max(0.0, (geometric + values_) / (log_weights_ + weights_)));
   }
 
  private:
-  float unit_ = 1;  // the first value, so that no unit of light is better than another
-  float logarithms_ = 0, log_weights_ = 0, values_ = 0, weights_ = 0;
+  double unit_ = 1;  // the first value, so that no unit of light is better than another
+  double logarithms_ = 0, log_weights_ = 0, values_ = 0, weights_ = 0;
 };
 
 }  // namespace
@@ -82,8 +82,7 @@ Scattered scattered(const VolumeRecord& record, const Vec3& d, std::span<const f
 
 std::uint32_t VolumeCache::insert(VolumeRecord record) {
   ISOPHOTE_CHECK(record.jet.value.size(), >, 0u);
-  // The first harmonic is 1 / sqrt(4 pi) everywhere.
-  sum_ += luminance(Rgbd(record.jet.value[0])) / std::sqrt(4 * static_cast<double>(pi));
+  sum_ += mean_luminance(record.jet);
   return RecordStore::insert(std::move(record));
 }
 

@@ -59,7 +59,7 @@ class VolumeCache : public RecordStore<VolumeRecord, VolumeQuery> {
   static bool holds(const VolumeRecord& record, int order) {
     return record.jet.value.size() >= static_cast<std::size_t>(harmonics_count(order));
   }
-  /// Luminance of radiance, the mean over all directions and records.
+  /// Of `mean_luminance` over all records.
   double mean() const { return records().empty() ? 0 : sum_ / static_cast<double>(records().size()); }
 
  private:

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "isophote/derivatives/volume_radiance.h"
 #include "isophote/validity/record.h"
@@ -17,5 +19,10 @@ struct VolumeRecord : Site {
   /// Is there a gradient to extrapolate by?
   bool has_slope() const { return footprint.order > 0 && !jet.translational.x.empty(); }
 };
+
+/// The luminance of radiance, the mean over all directions: the first harmonic is 1 / sqrt(4 pi) everywhere.
+inline double mean_luminance(const VolumeJet& jet) {
+  return jet.value.empty() ? 0 : luminance(Rgbd(jet.value[0])) / std::sqrt(4 * std::numbers::pi);
+}
 
 }  // namespace isophote
