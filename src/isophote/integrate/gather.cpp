@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "isophote/integrate/gather_layers.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {
@@ -15,14 +16,28 @@ Rgb scattered_radiance(const World& world, const FarLight& from, const FirstPoin
   return s.direct + s.indirect;
 }
 
-GatherSample gather_sample(const World& world, const FarLight& from, const Ray& ray, const Rgb& medium,
-                           Sampler& sampler, RayCounts& counts) {
-  const FirstPoint hit = first_point(world, ray, false, sampler, counts.gather, medium);
+/// What a ray meets, and the radiance of that and of what lies behind in mirrors, but for what media do before it.
+GatherSample meet(const World& world, const FarLight& from, const Ray& ray, const Rgb& medium, Sampler& sampler,
+                  RayCounts& counts) {
+  const FirstPoint hit = first_point(world, ray, false, sampler, counts.gather, medium, FirstSegment::clear);
   GatherSample sample{ray.direction, hit.first_distance, hit.emission, hit.first_normal, hit.first_mesh};
   const int depth = 1 + hit.depth;
   if (hit.scatters() && depth < world.max_depth)
     sample.radiance += hit.throughput * scattered_radiance(world, from, hit, depth, sampler, counts);
   return sample;
+}
+
+/// Shells for any place of the scene.
+Shells shells_of(const World& world, std::uint64_t key) {
+  constexpr int count = 12;
+  constexpr float first = 0.01f;  // of the diagonal
+  const float scale = world.rays.scene_scale();
+  return {count, first * scale, scale, key};
+}
+
+std::span<GatherLayer> layers_of(std::vector<GatherLayer>& all, const Shells& shells, int sample) {
+  const auto size = static_cast<std::size_t>(shells.count() + 1);
+  return std::span(all).subspan(static_cast<std::size_t>(sample) * size, size);
 }
 
 /// A step that visits all of `size` strata, early ones well spread over the hemisphere: the first rays into a cell
@@ -45,6 +60,10 @@ void gather_hemisphere(const World& world, const FarLight& from, const Place& pl
   surface.position = place.position;
   surface.geometric_normal = place.geometric_normal;
   surface.offset = place.offset;
+  std::optional<Shells> shells;
+  if (world.media) shells = shells_of(world, key);
+  gather.shells = shells ? shells->count() : 0;
+  gather.layers.assign(shells ? gather.samples.size() * static_cast<std::size_t>(shells->count() + 1) : 0, {});
   const int step = well_spread_step(strata.size());
   for (int n = 0, i = 0; n < strata.size(); ++n, i = (i + step) % strata.size()) {
     Sampler sampler(key, static_cast<std::uint32_t>(i));
@@ -56,7 +75,30 @@ void gather_hemisphere(const World& world, const FarLight& from, const Place& pl
       continue;
     }
     const Ray ray{offset_origin(surface, direction), direction};
-    gather.samples[i] = gather_sample(world, from, ray, place.medium, sampler, counts);
+    gather.samples[i] = meet(world, from, ray, place.medium, sampler, counts);
+    if (shells)
+      gather_layers(world, from, ray, *shells, sampler, counts, gather.samples[i],
+                    layers_of(gather.layers, *shells, i));
+  }
+}
+
+void gather_sphere(const World& world, const FarLight& from, const Vec3& position, const Rgb& inside,
+                   SphereStrata strata, std::uint64_t key, SphereGather& gather, RayCounts& counts) {
+  gather.position = position;
+  gather.strata = strata;
+  gather.samples.resize(static_cast<std::size_t>(strata.size()));
+  gather.sources.resize(gather.samples.size());
+  const Shells shells = shells_of(world, key);
+  gather.shells = shells.count(), gather.shell_ends = shells.ends;
+  gather.layers.assign(gather.samples.size() * static_cast<std::size_t>(shells.count() + 1), {});
+  const int step = well_spread_step(strata.size());
+  for (int n = 0, i = 0; n < strata.size(); ++n, i = (i + step) % strata.size()) {
+    Sampler sampler(key, static_cast<std::uint32_t>(i));
+    const Ray ray{position, strata.direction(i / strata.azimuthal, i % strata.azimuthal, sampler.next2())};
+    gather.samples[i] = meet(world, from, ray, inside, sampler, counts);
+    const auto layers = layers_of(gather.layers, shells, i);
+    gather_layers(world, from, ray, shells, sampler, counts, gather.samples[i], layers);
+    gather.sources[i] = layers[1].radiance / std::min(shells.ends[0], gather.samples[i].distance);
   }
 }
 

@@ -1,9 +1,11 @@
 #include "isophote/trace/media.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "isophote/core/hash.h"
+#include "isophote/scene/density_grid.h"
 #include "isophote/trace/density_walk.h"
 #include "isophote/trace/medium_spans.h"
 
@@ -41,6 +43,13 @@ struct Media::Impl {
       const float rate = max_component(m.extinction());
       rates.push_back(rate > 0 || is_black(m.emission) ? rate : emission_rate(m));
     }
+  }
+
+  /// Density for choosing by: never so small that other places of its surroundings would be missed.
+  static float roughly(const Medium& medium, const Vec3& p) {
+    constexpr float least = 0.02f;
+    const auto* grid = std::get_if<GridDensity>(&medium.density);
+    return grid ? std::max((*grid)->density(p), least * (*grid)->majorant()) : density_at(medium, p);
   }
 
   /// What only emits is met about four times along its diagonal.
@@ -170,6 +179,87 @@ void Media::along(const Ray& ray, std::span<const float> depths, std::span<Passa
       add(medium, i, sum, bounds, here);
     }
   });
+}
+
+std::optional<Media::Scatterer> Media::scatterer(const Vec3& p, float u) const {
+  const std::uint32_t held = holding(p);
+  std::array<float, 32> amounts{};
+  float sum = 0;
+  for (std::size_t i = 0; i < impl_->media.size(); ++i)
+    if (held >> i & 1) {
+      const Medium& medium = impl_->media[i];
+      sum += amounts[i] = mean(medium.scattering) * density_at(medium, p);
+    }
+  if (!(sum > 0)) return std::nullopt;
+  float left = u * sum;
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < impl_->media.size(); ++i) {
+    if (!(amounts[i] > 0)) continue;
+    chosen = i;
+    if (left < amounts[i]) break;
+    left -= amounts[i];
+  }
+  const Medium& medium = impl_->media[chosen];
+  const float density_over_chance = sum / mean(medium.scattering);
+  return Scatterer{{p, medium.g, static_cast<std::uint32_t>(chosen), {}}, medium.scattering * density_over_chance};
+}
+
+Rgb Media::emission(const Vec3& p) const {
+  Rgb sum;
+  const std::uint32_t held = holding(p);
+  for (std::size_t i = 0; i < impl_->media.size(); ++i)
+    if (held >> i & 1 && !is_black(impl_->media[i].emission))
+      sum += impl_->media[i].emission * density_at(impl_->media[i], p);
+  return sum;
+}
+
+std::span<const Media::RayPoint> Media::sample_points(const Ray& ray, int count, Sampler& sampler) const {
+  constexpr int pieces = 16;  // of a span
+  struct Piece {
+    std::uint32_t medium;
+    float near, size, scattering, extinction, weight;
+  };
+  thread_local std::vector<Piece> along;
+  thread_local std::vector<RayPoint> points;
+  along.clear(), points.clear();
+  impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) {
+    const Medium& medium = impl_->media[span.medium];
+    const float size = (span.far - span.near) / pieces;
+    const float glow = is_black(medium.emission) ? 0 : std::max(mean(medium.extinction()), 1 / (span.far - span.near));
+    for (int i = 0; i < pieces; ++i) {
+      const float near = span.near + size * static_cast<float>(i);
+      const float density = impl_->roughly(medium, ray.origin + ray.direction * (near + size / 2));
+      along.push_back({span.medium, near, size, (mean(medium.scattering) + glow) * density,
+                       mean(medium.extinction()) * density, 0});
+    }
+  });
+  std::sort(along.begin(), along.end(), [](const Piece& a, const Piece& b) { return a.near < b.near; });
+  float depth = 0, total = 0;
+  for (Piece& p : along) {
+    const float within = p.extinction * p.size;
+    p.weight = p.scattering * p.size * std::exp(-depth) * (within > 1e-4f ? -std::expm1(-within) / within : 1.0f);
+    depth += within, total += p.weight;
+  }
+  if (!(total > 0)) return points;
+  const float shift = sampler.next();
+  float before = 0;
+  auto piece = along.begin();
+  for (int i = 0; i < count; ++i) {
+    const float at = total * (static_cast<float>(i) + shift) / static_cast<float>(count);
+    while (std::next(piece) != along.end() && at >= before + piece->weight) before += (piece++)->weight;
+    if (!(piece->weight > 0)) continue;
+    const float in_piece = std::clamp((at - before) / piece->weight, 0.0f, 1.0f);
+    const float distance = piece->near + in_piece * piece->size;
+    const Medium& medium = impl_->media[piece->medium];
+    const Vec3 p = ray.origin + ray.direction * distance;
+    const float density = density_at(medium, p);
+    points.push_back({distance,
+                      piece->size * total / (piece->weight * static_cast<float>(count)),
+                      {p, medium.g, piece->medium, {}},
+                      medium.scattering * density,
+                      medium.emission * density});
+  }
+  return points;
 }
 
 }  // namespace isophote

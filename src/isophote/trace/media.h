@@ -31,6 +31,29 @@ class Media {
   /// Bit i: the i-th medium's bounds hold `p`.
   std::uint32_t holding(const Vec3& p) const;
 
+  /// One of the media that scatter at `p`, chosen by how much they do, with sigma_s (1/m) over the chance of the
+  /// choice: for one medium, its own. None where nothing scatters.
+  struct Scatterer {
+    MediumPoint point;
+    Rgb scattering;
+  };
+  std::optional<Scatterer> scatterer(const Vec3& p, float u) const;
+
+  /// What media emit at `p`, W/m3/sr.
+  Rgb emission(const Vec3& p) const;
+
+  /// Points along a ray at which it is worth looking for scattered or emitted light, chosen with a density near to what
+  /// is seen from there, scattering times transmittance: one by each `count`-th part of the chance, by a number of
+  /// `sampler`. An integral along the ray is the sum of length times what the point's medium adds to the integrand. The
+  /// span is overwritten by the thread's next call.
+  struct RayPoint {
+    float distance, length;
+    MediumPoint point;
+    Rgb scattering;  ///< sigma_s of the medium there, 1/m
+    Rgb emission;    ///< and what it emits, W/m3/sr
+  };
+  std::span<const RayPoint> sample_points(const Ray& ray, int count, Sampler& sampler) const;
+
   /// Where light that comes along the ray (ray.near to ray.far, finite or not) was scattered last: the free flight is
   /// chosen by delta tracking [Woodcock 1965] against bounds of the density, with the probabilities of [Kutz 2017]
   /// where channels differ. `throughput` becomes what scales the light from there, or from ray.far where nothing
