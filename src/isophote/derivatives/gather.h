@@ -42,7 +42,7 @@ struct HemisphereGather {
   /// Where there are media: of each sample, the surface (index 0) and `shells` shells of depths, cut at the surface.
   /// A shell that begins behind it is black and has its depth. Empty where there are none.
   int shells = 0;
-  std::vector<GatherLayer> layers;
+  std::vector<GatherLayer> layers{};
 
   const GatherSample& at(int j, int k) const { return samples[static_cast<std::size_t>(j) * strata.azimuthal + k]; }
   const GatherLayer& layer(int j, int k, int l) const {
