@@ -67,10 +67,10 @@ float serving_error(const VolumeRecord& record, const VolumeQuery& query, Volume
   return std::sqrt(distance);
 }
 
-Scattered scattered(const VolumeRecord& record, const Vec3& d, std::span<const float> lobe, int order) {
+Extrapolated extrapolate(const VolumeRecord& record, const Vec3& d, std::span<const float> lobe, int order) {
   const int count = harmonics_count(order);
   const Rgb* value = record.jet.value.data();
-  Scattered sum;
+  Extrapolated sum;
   for (int i = 0; i < count; ++i) sum.value += value[i] * lobe[i];
   if (!record.has_slope()) return sum;
   const Gradient<Coefficients>& slope = record.jet.translational;
@@ -82,7 +82,7 @@ Scattered scattered(const VolumeRecord& record, const Vec3& d, std::span<const f
 
 std::uint32_t VolumeCache::insert(VolumeRecord record) {
   ISOPHOTE_CHECK(record.jet.value.size(), >, 0u);
-  sum_ += mean_luminance(record.jet);
+  sum_ += mean_over_directions(record.jet);
   return RecordStore::insert(std::move(record));
 }
 
@@ -94,7 +94,7 @@ std::optional<Rgb> VolumeCache::scattered(const VolumeQuery& query, std::span<co
   visit_serving(query, open, [&](std::uint32_t id, float, float weight) {
     const VolumeRecord& record = records()[id];
     if (!holds(record, order)) return;
-    const Scattered s = isophote::scattered(record, query.position - record.position, lobe, order);
+    const Extrapolated s = extrapolate(record, query.position - record.position, lobe, order);
     for (int c = 0; c < 3; ++c) {
       const float value = s.value[c], change = s.change[c];
       if (record.footprint.logarithmic && value > least)

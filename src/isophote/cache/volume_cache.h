@@ -59,7 +59,7 @@ class VolumeCache : public RecordStore<VolumeRecord, VolumeQuery> {
   static bool holds(const VolumeRecord& record, int order) {
     return record.jet.value.size() >= static_cast<std::size_t>(harmonics_count(order));
   }
-  /// Of `mean_luminance` over all records.
+  /// The mean of `mean_over_directions` over all records.
   double mean() const { return records().empty() ? 0 : sum_ / static_cast<double>(records().size()); }
 
  private:
@@ -83,9 +83,9 @@ struct VolumeCaches {
 float serving_error(const VolumeRecord& record, const VolumeQuery& query, VolumeOpenTest open);
 
 /// What a lobe takes of a record's radiance, and by how much that changes up to position + d.
-struct Scattered {
+struct Extrapolated {
   Rgb value, change;
 };
-Scattered scattered(const VolumeRecord& record, const Vec3& d, std::span<const float> lobe, int order);
+Extrapolated extrapolate(const VolumeRecord& record, const Vec3& d, std::span<const float> lobe, int order);
 
 }  // namespace isophote

@@ -47,7 +47,7 @@ Footprint volume_error(const VolumeJet& jet, const View& view, float wanted, con
   std::array<double, 3> axes{cap, cap, cap};
   if (curvature > 0) {
     if (!(aspect > 1)) l.fill(curvature / 3);
-    axes = volume_error_axes(l, allowed(view, curvature, mean_luminance(jet), wanted), aspect);
+    axes = volume_error_axes(l, allowed(view, curvature, mean_over_directions(jet), wanted), aspect);
   }
   const double least = smallest_radius * view.scene_scale;
   for (double& axis : axes) axis = std::clamp(axis, least, cap);

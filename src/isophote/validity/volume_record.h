@@ -21,7 +21,7 @@ struct VolumeRecord : Site {
 };
 
 /// The luminance of radiance, the mean over all directions: the first harmonic is 1 / sqrt(4 pi) everywhere.
-inline double mean_luminance(const VolumeJet& jet) {
+inline double mean_over_directions(const VolumeJet& jet) {
   return jet.value.empty() ? 0 : luminance(Rgbd(jet.value[0])) / std::sqrt(4 * std::numbers::pi);
 }
 
