@@ -1,6 +1,7 @@
-#include <stdexcept>
 
 #include "isophote/cache/catalogue_rows.h"
+#include "isophote/derivatives/jarosz_2008a.h"
+#include "isophote/derivatives/moving_walls.h"
 #include "isophote/validity/relative_change.h"
 #include "isophote/validity/settle.h"
 #include "isophote/validity/uniform.h"
@@ -10,23 +11,20 @@
 namespace isophote {
 namespace {
 
-// Where the estimators' headers will be included instead.
-VolumeJet jarosz_2008a(const SphereGather&, VolumePart, int) { throw std::logic_error("not yet"); }
-VolumeJet marco_2018(const SphereGather&, VolumePart, int) { throw std::logic_error("not yet"); }
-
 constexpr VolumeEstimator estimator_table[] = {
+    {.name = "volume", .gives = "value, gradients of samples", .sums = true, .estimate = volume_radiance},
     {.name = "volume-unaware",
      .paper = "[Jarosz 2008a]",
      .gives = "value, gradient unaware of occlusion, gradients of samples",
      .order = 1,
      .sums = true,
      .estimate = jarosz_2008a},
-    {.name = "volume-triangulated",
-     .paper = "[Marco 2018]",
-     .gives = "value, gradient, Hessian",
-     .order = 2,
+    {.name = "volume-walls",
+     .gives = "value, gradient, gradients of samples",
+     .order = 1,
+     .sums = true,
      .sees_occluders = true,
-     .estimate = marco_2018},
+     .estimate = [](const SphereGather& g, VolumePart part, int bands) { return moving_walls(g, part, bands); }},
 };
 
 float as_threshold(const MetricSettings& s) { return s.a; }
