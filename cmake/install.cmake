@@ -8,7 +8,8 @@ function(isophote_install component)
   install(EXPORT isophote-${component} NAMESPACE isophote:: DESTINATION ${isophote_package_dir} COMPONENT ${component})
   foreach(folder ${ARGN})
     install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isophote COMPONENT ${component}
-            FILES_MATCHING PATTERN "*.h" PATTERN "gltf_*" EXCLUDE)  # the parts of the glTF reader are its own affair
+            FILES_MATCHING PATTERN "*.h"
+            REGEX "/((gltf|toml)_[^/]*|media_toml|density_grid_impl)\\.h$" EXCLUDE)  # the parts of readers are their own affair
   endforeach()
 endfunction()
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <vector>
 
+#include "isophote/core/affine.h"
 #include "isophote/core/vec.h"
 
 namespace isophote {
@@ -15,6 +17,11 @@ class DensityGrid {
   struct Impl;
   explicit DensityGrid(std::unique_ptr<const Impl> impl);
   ~DensityGrid();
+
+  /// A grid of `size` points (i, j, k) from (0, 0, 0) on; `values` are finite, >= 0 and stand with i fastest, then j.
+  /// `to_world`, not singular, takes coordinates of the grid to metres. Throws UserError for other values.
+  static std::shared_ptr<const DensityGrid> from_values(const std::array<int, 3>& size, std::vector<float> values,
+                                                        const Affine& to_world);
 
   /// To and from coordinates of the grid: points, and directions (which lose their unit length).
   Vec3d to_grid(const Vec3d& p) const;

@@ -18,6 +18,7 @@ namespace isophote {
 /// Triangles of one material, in world space. Attribute arrays are empty or as long as `positions`.
 struct Mesh {
   std::string name;
+  std::string node;  ///< what the instance is called
   int material = 0;
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;         ///< unit
