@@ -137,7 +137,7 @@ constexpr Option table[] = {
     {"method", "media-metric", "NAME", "another metric for records in media than the method's",
      [](S& s, T t) { s.media_metric = find_volume_metric(t).name; }, true},
     {"method", "media-a", "A", "threshold of that metric (default: by --error, or the error that --a aims at)",
-     [](S& s, T t) { s.media_a = number<float>(t, least_threshold, greatest_threshold); }, true},
+     [](S& s, T t) { s.media_a = number<float>(t, least_threshold, 100); }, true},
     {"method", "glossy-window", "on|off",
      "do the later harmonics of a lobe count less (Hanning's window), against ringing? (default: off)",
      [](S& s, T t) { s.glossy_window = on_off(t); }, true},
