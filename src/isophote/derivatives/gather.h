@@ -43,6 +43,8 @@ struct HemisphereGather {
   /// A shell that begins behind it is black and has its depth. Empty where there are none.
   int shells = 0;
   std::vector<GatherLayer> layers{};
+  /// Per sample, as SphereGather's; empty where media scatter alike in all directions, or there are none.
+  std::vector<Rgb> sources{};
 
   const GatherSample& at(int j, int k) const { return samples[static_cast<std::size_t>(j) * strata.azimuthal + k]; }
   const GatherLayer& layer(int j, int k, int l) const {

@@ -20,4 +20,8 @@ struct VolumeJet : Jet<Coefficients> {
 /// What of a gather is meant: light of surfaces and the sky (layer 0), or of media (the shells).
 enum class VolumePart : std::uint8_t { surfaces, media };
 
+/// Radiance in `order` bands without derivatives, but with the sums of samples' magnitudes: each sample stands for its
+/// cell. Those of the other estimators are the same. A sample's gradient there is that of jarosz_2008a.
+VolumeJet volume_radiance(const SphereGather& gather, VolumePart part, int order);
+
 }  // namespace isophote

@@ -4,8 +4,9 @@
 
 namespace isophote {
 
-Marched march(const World& world, const FarLight& from, const Ray& way, int points, int depth, Sampler& sampler,
+Marched march(const World& world, const FarLight& from, const Ray& way, int depth, Sampler& sampler,
               RayCounts& counts) {
+  constexpr int points = 2;
   Marched out;
   for (const Media::RayPoint& at : world.media->sample_points(way, points, sampler)) {
     const Ray before{way.origin, way.direction, way.near, at.distance};

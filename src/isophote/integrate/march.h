@@ -11,10 +11,9 @@ struct Marched {
   bool covered = true;  ///< false: somewhere no record served, and a path went on instead
 };
 
-/// Looks at `points` places of the way, chosen by what is seen from there, for light of directly sampled emitters, by
-/// light sampling, and for the rest, `from` records of volume radiance or by a path where none serves. The world has
+/// Looks at a few places of the way, chosen by what is seen from there, for light of directly sampled emitters, by
+/// light sampling, and for the rest, `from` records of radiance in media or by a path where none serves. The world has
 /// media; `depth` counts the scattering events before.
-Marched march(const World& world, const FarLight& from, const Ray& way, int points, int depth, Sampler& sampler,
-              RayCounts& counts);
+Marched march(const World& world, const FarLight& from, const Ray& way, int depth, Sampler& sampler, RayCounts& counts);
 
 }  // namespace isophote

@@ -84,6 +84,13 @@ std::uint32_t Media::holding(const Vec3& p) const {
   return bits;
 }
 
+float Media::anisotropy(std::uint32_t media) const {
+  float most = 0;
+  for (std::size_t i = 0; i < impl_->media.size(); ++i)
+    if (media >> i & 1) most = std::max(most, std::abs(impl_->media[i].g));
+  return most;
+}
+
 std::optional<MediumPoint> Media::collide(const Ray& ray, Sampler& sampler, Rgb& throughput, Rgb& emission) const {
   thread_local std::vector<Flight> flights;
   flights.clear();

@@ -30,6 +30,8 @@ class Media {
 
   /// Bit i: the i-th medium's bounds hold `p`.
   std::uint32_t holding(const Vec3& p) const;
+  /// The largest |g| of media, by their bits.
+  float anisotropy(std::uint32_t media) const;
 
   /// One of the media that scatter at `p`, chosen by how much they do, with sigma_s (1/m) over the chance of the
   /// choice: for one medium, its own. None where nothing scatters.

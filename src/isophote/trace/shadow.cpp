@@ -69,4 +69,12 @@ bool open_between(const World& world, const Spot& a, const Spot& b, RayCounts& c
   return !world.rays.occluded(ray, 0);
 }
 
+bool open_between(const World& world, const Vec3& a, const Vec3& b, RayCounts& counts) {
+  const Vec3 way = b - a;
+  const float distance = length(way);
+  if (!(distance > 0)) return true;
+  ++counts.verification;
+  return !world.rays.occluded({a, way / distance, 0, distance}, 0);
+}
+
 }  // namespace isophote

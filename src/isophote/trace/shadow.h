@@ -31,5 +31,7 @@ struct Spot {
 /// Is the way free from one spot to another that faces alike, at the height of half a tenth of their distance over
 /// both? Alpha-masked surfaces stop it where they are opaque; glass does too, since it parts what is lit differently.
 bool open_between(const World& world, const Spot& a, const Spot& b, RayCounts& counts);
+/// And straight from one place in a medium to another?
+bool open_between(const World& world, const Vec3& a, const Vec3& b, RayCounts& counts);
 
 }  // namespace isophote
