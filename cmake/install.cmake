@@ -9,7 +9,7 @@ function(isophote_install component)
   foreach(folder ${ARGN})
     install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isophote COMPONENT ${component}
             FILES_MATCHING PATTERN "*.h"
-            REGEX "/((gltf|toml)_[^/]*|media_toml|density_grid_impl)\\.h$" EXCLUDE)  # the parts of readers are their own affair
+            REGEX "/((gltf|toml)_[^/]*|media_toml|nano_voxels|density_grid_impl)\\.h$" EXCLUDE)  # the parts of readers are their own affair
   endforeach()
 endfunction()
 

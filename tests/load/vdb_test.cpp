@@ -13,10 +13,14 @@
 
 #include "support/statistics.h"
 
+#ifdef __SANITIZE_ADDRESS__
+/// OpenVDB loses the nodes that it was reading where reading fails.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libopenvdb"; }
+#endif
+
 namespace isophote::testing {
 namespace {
 
-using openvdb::Coord;
 using openvdb::FloatGrid;
 using openvdb::Vec3d;
 using statistics::Random;
@@ -32,6 +36,10 @@ class Vdb : public ::testing::Test {
     file.setCompression(compression);
     file.write(grids);
     return path();
+  }
+  std::string content() const {
+    std::ifstream in(path(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   }
   std::shared_ptr<const DensityGrid> read(float scale = 1, std::uint64_t memory = plenty,
                                           const std::string& name = "density") {
@@ -219,24 +227,55 @@ TEST_F(Vdb, AbsurdSizesAreRefused) {
 
 TEST_F(Vdb, DamagedFilesAreRefused) {
   write({noise()}, openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
-  std::ifstream in(path(), std::ios::binary);
-  const std::string whole((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::string whole = content();
   for (std::size_t size = 0; size < whole.size(); size += std::max<std::size_t>(1, size / 20)) {
     folder_.write("a.vdb", whole.substr(0, size));
-    EXPECT_EQ(refusal(), "is damaged: it ends too early, or cannot be read") << size;
+    EXPECT_EQ(refusal().find("is damaged: "), 0u) << size;
   }
   folder_.write("a.vdb", std::string(1000, 'x'));
   EXPECT_EQ(refusal(), "is no OpenVDB file");
   std::string newer = whole;
   newer[8] = '\xff';
   folder_.write("a.vdb", newer);
-  EXPECT_EQ(refusal(), "is of version 255 of the format: versions up to 224 can be read");
+  EXPECT_EQ(refusal(), "is of version 255 of the format: versions 222 to 224 can be read");
   std::string longer = whole;
   const std::size_t type = whole.find("Tree_float");
   ASSERT_NE(type, std::string::npos);
   longer[type + 5] = 'x';
   folder_.write("a.vdb", longer);
   EXPECT_EQ(refusal().find("is damaged: LookupError: "), 0u) << refusal();
+}
+
+/// Whatever a changed byte does, it gives a grid or one clear line.
+TEST_F(Vdb, AnyByteMayBeWrong) {
+  for (const std::uint32_t compression : {2u, 3u, 6u}) {
+    write({noise()}, compression);
+    const std::string whole = content();
+    Random random(compression + 1);
+    int refused = 0;
+    for (int n = 0; n < 150; ++n) {
+      std::string damaged = whole;
+      const std::size_t within = n % 2 == 0 ? 900 : whole.size();
+      damaged[static_cast<std::size_t>(random.next() * static_cast<float>(within))] =
+          static_cast<char>(n % 5 == 0 ? 0xff : random.next() * 256);
+      folder_.write("a.vdb", damaged);
+      const std::string message = refusal();
+      refused += !message.empty();
+      EXPECT_EQ(message.find('\n'), std::string::npos);
+    }
+    EXPECT_GT(refused, 20);
+  }
+}
+
+TEST_F(Vdb, ThePlumeOfTheProject) {
+  MemoryBudget budget(plenty);
+  const auto plume = read_vdb(ISOPHOTE_SOURCE_DIR "/scenes/plume.vdb", "density", 1, budget);
+  EXPECT_GT(plume->majorant(), 0.8f);
+  EXPECT_LT(plume->majorant(), 1.2f);
+  const Box box = plume->world_bounds();
+  EXPECT_NEAR(box.lower.y, 0, 0.1);
+  EXPECT_NEAR(box.upper.y, 2.8, 0.1);
+  EXPECT_GT(plume->density({0, 0.5f, 0}), 0.1f);
 }
 
 TEST_F(Vdb, InScenes) {

@@ -8,12 +8,13 @@
 #include <bit>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "isophote/core/error.h"
 #include "isophote/core/hash.h"
 #include "isophote/load/messages.h"
+#include "isophote/load/nano_voxels.h"
+#include "isophote/load/vdb_input.h"
 #include "isophote/scene/density_grid_impl.h"
 
 namespace isophote {
@@ -24,50 +25,25 @@ using openvdb::FloatGrid;
 using Leaf = FloatGrid::TreeType::LeafNodeType;
 static_assert(Leaf::DIM == DensityGrid::block);
 
-/// Values in a NanoVDB tree. Inactive ones are 0 there.
-class NanoVoxels : public Voxels {
- public:
-  explicit NanoVoxels(nanovdb::GridHandle<> handle) : handle_(std::move(handle)), grid_(handle_.grid<float>()) {}
-
-  // Most cells have all their corners in one leaf, which is then looked up once. Accessors remember where they were, so
-  // that none can be shared by threads, and a fresh one is cheap.
-  void corners(int i, int j, int k, float out[8]) const override {
-    constexpr int last = DensityGrid::block - 1;
-    const int a = i & last, b = j & last, c = k & last;
-    if (a < last && b < last && c < last) {
-      if (const auto* leaf = grid_->tree().root().probeLeaf({i, j, k})) {
-        const float* first = leaf->data()->mValues + (a * Leaf::DIM + b) * Leaf::DIM + c;
-        for (int n = 0; n < 8; ++n) out[n] = first[((n >> 2) * Leaf::DIM + (n >> 1 & 1)) * Leaf::DIM + (n & 1)];
-        return;
-      }
-    }
-    const auto accessor = grid_->getAccessor();
-    for (int n = 0; n < 8; ++n) out[n] = accessor.getValue({i + (n >> 2), j + (n >> 1 & 1), k + (n & 1)});
-  }
-
- private:
-  nanovdb::GridHandle<> handle_;
-  const nanovdb::FloatGrid* grid_;
-};
-
-/// Reads one grid of a file. OpenVDB's own reader takes the end of a file for zeros; this one's stream throws there.
+/// Reads one grid of a file. OpenVDB's own reader takes what is missing at the end for zeros.
 class File : openvdb::io::Archive {
  public:
-  explicit File(const std::string& path) {
-    stream_.exceptions(std::ios::eofbit | std::ios::failbit | std::ios::badbit);
-    stream_.open(path, std::ios::binary);
+  explicit File(const std::string& path) : stream_(path) {
     refuse_other_formats();
     readHeader(stream_);
     openvdb::io::setStreamMetadataPtr(stream_, metadata_, false);
     openvdb::io::setVersion(stream_, libraryVersion(), fileVersion());
     openvdb::io::setDataCompression(stream_, compression());
+    looked_ahead([&] { check_metadata(); });
     openvdb::MetaMap().readMeta(stream_);
   }
-  ~File() override { stream_.exceptions(std::ios::goodbit); }
 
   FloatGrid::Ptr read(const std::string& name) {
     std::string others;
     for (std::int32_t left = readGridCount(stream_); left > 0; --left) {
+      looked_ahead([&] {
+        for (int texts = 3; texts > 0; --texts) stream_.read_text();  // name, type, whose values it shares
+      });
       openvdb::io::GridDescriptor descriptor;
       const openvdb::GridBase::Ptr grid = descriptor.read(stream_);
       const std::string own = openvdb::io::GridDescriptor::nameAsString(descriptor.uniqueName());
@@ -80,19 +56,60 @@ class File : openvdb::io::Archive {
 
  private:
   void refuse_other_formats() {
+    constexpr std::uint32_t oldest = openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION;
+    constexpr std::uint32_t newest = openvdb::OPENVDB_FILE_VERSION;
     std::int64_t magic = 0;
-    std::uint32_t version = 0;
-    stream_.read(reinterpret_cast<char*>(&magic), sizeof magic).read(reinterpret_cast<char*>(&version), sizeof version);
+    stream_.read(reinterpret_cast<char*>(&magic), sizeof magic);
     if (magic != openvdb::OPENVDB_MAGIC) throw UserError("is no OpenVDB file");
-    if (version > openvdb::OPENVDB_FILE_VERSION)
-      throw UserError(fmt::format("is of version {} of the format: versions up to {} can be read", version,
-                                  static_cast<int>(openvdb::OPENVDB_FILE_VERSION)));
+    const std::uint32_t version = stream_.read_word();
+    if (version < oldest || version > newest)
+      throw UserError(
+          fmt::format("is of version {} of the format: versions {} to {} can be read", version, oldest, newest));
     stream_.seekg(0);
+  }
+
+  /// Reads and then goes back to where it was.
+  template <class Body>
+  void looked_ahead(const Body& body) {
+    const auto start = stream_.tellg();
+    body();
+    stream_.seekg(start);
+  }
+
+  /// Reads metadata as OpenVDB will, which believes lengths and, for types that it knows, does not look at them. True
+  /// where they say that values are half floats.
+  bool check_metadata() {
+    bool half = false;
+    for (std::uint32_t left = stream_.read_word(); left > 0; --left) {
+      const std::string name = stream_.read_text(), type = stream_.read_text(), value = stream_.read_text();
+      const bool fixed = type != "string" && type != "__delayedload" && openvdb::Metadata::isRegisteredType(type);
+      const bool is_half = name == openvdb::GridBase::META_SAVE_HALF_FLOAT;
+      if ((fixed && openvdb::Metadata::createMetadata(type)->size() != value.size()) || (is_half && type != "bool"))
+        throw UserError(fmt::format("is damaged: its metadata '{}' have a wrong type or size", name));
+      if (is_half) half = value[0] != 0;
+    }
+    return half;
+  }
+
+  void read_grid(const openvdb::io::GridDescriptor& descriptor, const openvdb::GridBase::Ptr& grid) {
+    looked_ahead([&] {
+      const std::uint32_t compression = stream_.read_word();
+      const auto has = [compression](std::uint32_t flag) { return (compression & flag) != 0; };
+      const bool half = check_metadata();
+      if (half != descriptor.saveFloatAsHalf()) throw UserError("is damaged: are its values half floats or not?");
+      stream_.check_nodes({stream_.tellg(), has(openvdb::io::COMPRESS_BLOSC), has(openvdb::io::COMPRESS_ZIP),
+                           has(openvdb::io::COMPRESS_ACTIVE_MASK), half ? 2 : 4});
+    });
+    readGrid(grid, descriptor, stream_);
   }
 
   /// Goes on to the next grid, always forwards.
   void skip(const openvdb::io::GridDescriptor& descriptor, const openvdb::GridBase::Ptr& grid) {
-    if (!inputHasGridOffsets()) return readGrid(grid, descriptor, stream_);
+    if (!inputHasGridOffsets()) {
+      if (grid->isType<FloatGrid>()) return read_grid(descriptor, grid);
+      throw UserError(fmt::format("does not say where its grids begin, and one of type {} stands before the named one",
+                                  grid->valueType()));
+    }
     if (descriptor.getEndPos() < stream_.tellg()) throw UserError("is damaged: a grid ends before it begins");
     descriptor.seekToEnd(stream_);
   }
@@ -105,7 +122,7 @@ class File : openvdb::io::Archive {
       throw UserError(fmt::format("grid '{}' shares the values of '{}': name that one", name,
                                   openvdb::io::GridDescriptor::nameAsString(descriptor.instanceParentName())));
     if (inputHasGridOffsets()) descriptor.seekToGrid(stream_);
-    readGrid(grid, descriptor, stream_);
+    read_grid(descriptor, grid);
     if (inputHasGridOffsets() && stream_.tellg() != descriptor.getEndPos())
       throw UserError(fmt::format("is damaged: grid '{}' does not end where it should", name));
     if (grid->getGridClass() == openvdb::GRID_LEVEL_SET)
@@ -115,7 +132,7 @@ class File : openvdb::io::Archive {
 
   openvdb::io::StreamMetadata::Ptr metadata_ =
       std::make_shared<openvdb::io::StreamMetadata>();  // the stream points to it
-  std::ifstream stream_;
+  VdbInput stream_;
 };
 
 /// The map from coordinates of the grid to the world.
@@ -147,7 +164,7 @@ IndexBox active_points(const FloatGrid& grid, MemoryBudget& budget) {
     if (points.lower[n] < -farthest || points.upper[n] > farthest)
       throw UserError(fmt::format("it has voxels beyond {} in its own coordinates", farthest));
   }
-  constexpr std::uint64_t most = 1 << 30;  // bytes
+  constexpr std::uint64_t most = 1 << 28;  // bytes
   const std::uint64_t bytes = BlockMajorants::bytes(points);
   const auto size = [&](std::size_t a) { return points.upper[a] - points.lower[a] + 1; };
   if (bytes > most) throw UserError(fmt::format("it spans {} x {} x {} voxels, too many", size(0), size(1), size(2)));
