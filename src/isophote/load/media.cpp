@@ -68,7 +68,7 @@ class MediaReader {
     GridDensity& grid = grids_[std::tuple(path, source.name, source.scale)];
     if (grid) return grid;
     const auto scale = static_cast<float>(source.scale);
-    grid = with_place(path, [&] { return read_vdb(path, source.name, scale, budget_); });
+    grid = with_place(source.file.place + ": " + path, [&] { return read_vdb(path, source.name, scale, budget_); });
     if (std::find(files_.begin(), files_.end(), path) == files_.end()) files_.push_back(path);
     return grid;
   }
