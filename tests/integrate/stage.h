@@ -23,6 +23,7 @@ inline Method method(const std::string& name, double error = 0.02) {
   Method m = find_method(name);
   if (m.caches()) m.settings.a = threshold(*m.metric, error);
   if (m.glossy.caches()) m.glossy.settings.a = threshold(*m.glossy.metric, error);
+  if (m.volume.caches()) m.volume.settings.a = threshold(*m.volume.metric, error);
   m.adaptive = false;  // a test says itself how many rays there are
   return m;
 }

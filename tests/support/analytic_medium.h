@@ -9,13 +9,6 @@
 
 namespace isophote::test {
 
-/// u v^T + v u^T
-inline Sym3d symmetric_outer(const Vec3d& u, const Vec3d& v) {
-  return Sym3d::outer(u + v, 0.5) + Sym3d::outer(u - v, -0.5);
-}
-/// The identity but for the direction `w`.
-inline Sym3d across(const Vec3d& w) { return Sym3d::scaled_identity(1) + Sym3d::outer(w, -1); }
-
 /// A medium whose extinction sigma_t (1/m), its derivatives and its optical depths are closed forms.
 class AnalyticMedium {
  public:
@@ -80,10 +73,10 @@ class AnalyticMedium {
     Sym3d second;
     along(t, [&](double u, double weight) {
       first += slope(x + w * (u * t)) * ((1 - u) * weight);
-      second = second + curvature(x + w * (u * t)) * ((1 - u) * (1 - u) * weight);
+      second += curvature(x + w * (u * t)) * ((1 - u) * (1 - u) * weight);
     });
     const double mean = optical_depth(x, w, t) / t;
-    return across(w) * (-mean / t) + symmetric_outer(w, first) + second * -t;
+    return Sym3d::across(w) * (-mean / t) + Sym3d::symmetric_outer(w, first, 1) + second * -t;
   }
 
  private:

@@ -115,6 +115,14 @@ inline constexpr VolumePart both_parts[] = {VolumePart::surfaces, VolumePart::me
 
 /// A gradient in turned axes, in the room's.
 inline Vec3d in_room(const Gradient<Rgbd>& g) { return turned_axes().to_world(Vec3d{g.x.r, g.y.r, g.z.r}); }
+inline Sym3d in_room(const Sym3d& h) {
+  const Framed axes = turned_axes();
+  const Vec3d x = axes.to_local({1, 0, 0}), y = axes.to_local({0, 1, 0}), z = axes.to_local({0, 0, 1});
+  return {dot(x, h * x), dot(x, h * y), dot(x, h * z), dot(y, h * y), dot(y, h * z), dot(z, h * z)};
+}
+inline double relative_error(const Sym3d& estimate, const Sym3d& truth) {
+  return norm(estimate + truth * -1) / norm(truth);
+}
 inline double relative_error(const Vec3d& estimate, const Vec3d& truth) {
   return length(estimate - truth) / length(truth);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <random>
 #include <vector>
 
 #include "isophote/derivatives/sphere_gather.h"
@@ -132,13 +133,22 @@ class MediaRoom {
 };
 
 /// How the rays of a gather are cut: the first shell ends at 0.03, the last beyond the farthest corner, each thicker
-/// than the one before by the same factor. Exact shells, the depth of each the geometric mean of its ends.
+/// than the one before by the same factor. Shells are exact and the depth of each is the geometric mean of its ends;
+/// or, with a seed, each is looked at in one place, by the same share of it for all rays.
 struct MediaShells {
   std::vector<float> ends;
+  std::vector<double> shares{};
 
-  explicit MediaShells(int count) {
-    for (int l = 0; l < count; ++l)
+  explicit MediaShells(int count, std::optional<std::uint32_t> seed = {}) {
+    std::mt19937 random(seed.value_or(0));
+    for (int l = 0; l < count; ++l) {
       ends.push_back(static_cast<float>(0.03 * std::pow(3.5 / 0.03, static_cast<double>(l) / (count - 1))));
+      if (seed) shares.push_back(static_cast<double>(unit_float(static_cast<std::uint32_t>(random()))));
+    }
+  }
+  double depth(std::size_t l, double begin, double end) const {
+    if (!shares.empty()) return begin + shares[l] * (end - begin);
+    return begin > 0 ? std::sqrt(begin * end) : end / 2;
   }
 };
 
@@ -157,13 +167,16 @@ inline GatherSample gather_ray(const MediaRoom& room, const Vec3d& x, const Fram
   add(room.medium.transmittance(x, w, r) * room.surface_radiance(x + w * r, hit.surface), r,
       room.medium.log_gradient(x, w, r));
   double begin = 0;
-  for (const float e : shells.ends) {
-    const double end = std::min(static_cast<double>(e), r);
-    const double radiance = begin < end ? room.shell_radiance(x, w, begin, end) : 0;
-    const double depth = !(begin < end) ? r : begin > 0 ? std::sqrt(begin * end) : end / 2;
+  for (std::size_t l = 0; l < shells.ends.size(); ++l) {
+    const double end = std::min(static_cast<double>(shells.ends[l]), r);
+    const double depth = begin < end ? shells.depth(l, begin, end) : r;
+    double radiance = 0;
+    if (begin < end && shells.shares.empty()) radiance = room.shell_radiance(x, w, begin, end);
+    if (begin < end && !shells.shares.empty())
+      radiance = (end - begin) * room.medium.transmittance(x, w, depth) * room.source(x + w * depth, w);
     add(radiance, depth,
         radiance > 0 ? room.medium.log_gradient(x, w, depth) + room.source_log_gradient(w, depth) : Vec3d());
-    begin = static_cast<double>(e);
+    begin = static_cast<double>(shells.ends[l]);
   }
   return sample;
 }
@@ -175,11 +188,10 @@ inline Framed turned_axes() {
 }
 
 /// In turned axes, as are all directions and derivatives of what is made of it.
-inline SphereGather gather_sphere(const MediaRoom& room, const Vec3d& x, SphereStrata strata, int shell_count,
+inline SphereGather gather_sphere(const MediaRoom& room, const Vec3d& x, SphereStrata strata, const MediaShells& shells,
                                   std::optional<std::uint32_t> seed = {}) {
-  const MediaShells shells(shell_count);
   const Framed axes = turned_axes();
-  SphereGather gather{{}, strata, shell_count, shells.ends, {}, {}, {}};
+  SphereGather gather{{}, strata, static_cast<int>(shells.ends.size()), shells.ends, {}, {}, {}};
   Jitter jitter(seed);
   for (int j = 0; j < strata.polar; ++j)
     for (int k = 0; k < strata.azimuthal; ++k) {
@@ -188,6 +200,11 @@ inline SphereGather gather_sphere(const MediaRoom& room, const Vec3d& x, SphereS
       gather.sources.push_back(Rgb(static_cast<float>(room.source(x, axes.to_world(Vec3d(direction))))));
     }
   return gather;
+}
+
+inline SphereGather gather_sphere(const MediaRoom& room, const Vec3d& x, SphereStrata strata, int shells,
+                                  std::optional<std::uint32_t> seed = {}) {
+  return gather_sphere(room, x, strata, MediaShells(shells), seed);
 }
 
 inline HemisphereGather gather_floor(const MediaRoom& room, double x, double y, Strata strata, int shell_count,

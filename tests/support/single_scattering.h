@@ -50,7 +50,7 @@ struct SeenPlace {
   double cosine(const Vec3d& along) const { return -dot(w, along); }
   Vec3d cosine_gradient(const Vec3d& along) const { return (along - w * dot(w, along)) / r; }
   Sym3d cosine_hessian(const Vec3d& along) const {
-    return symmetric_outer(w, cosine_gradient(along)) * (1 / r) + across(w) * (-cosine(along) / (r * r));
+    return Sym3d::symmetric_outer(w, cosine_gradient(along), 1 / r) + Sym3d::across(w) * (-cosine(along) / (r * r));
   }
 
   LogJet phase(const HenyeyGreenstein& f, const Vec3d& wo) const {

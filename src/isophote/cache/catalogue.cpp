@@ -4,6 +4,7 @@
 
 #include "isophote/cache/catalogue_rows.h"
 #include "isophote/core/error.h"
+#include "isophote/derivatives/jarosz_2008b.h"
 #include "isophote/derivatives/jarosz_2012.h"
 #include "isophote/derivatives/krivanek_2005a.h"
 #include "isophote/derivatives/krivanek_2005b.h"
@@ -27,6 +28,8 @@ constexpr Estimator estimator_table[] = {
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact); }},
     {"ward-heckbert-harmonic", "[Ward, Heckbert 1992]", "the same, walls on one surface at their harmonic mean", 1,
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact, WallDistance::harmonic); }},
+    {"layered", "[Jarosz 2008b]", "value, gradients that know of media", 1,
+     [](const HemisphereGather& g) { return jarosz_2008b(g); }},
     {"surface-area", "[Krivanek 2005a]", "value, gradients unaware of occlusion", 1, krivanek_2005a},
     {"surface-area-hessian", "[Jarosz 2012]", "value, gradients, Hessian unaware of occlusion", 2, jarosz_2012},
     {"triangulated", "[Schwarzhaupt 2012]", "value, gradients, Hessian", 2,
@@ -106,7 +109,7 @@ consteval const auto& row(const Table& table, std::string_view name) {
 constexpr const Estimator &no_gradients = row(estimator_table, "irradiance"),
                           &classical = row(estimator_table, "ward-heckbert"),
                           &exact = row(estimator_table, "ward-heckbert-exact"),
-                          &pieces = row(estimator_table, "surface-area"),
+                          &layered = row(estimator_table, "layered"), &pieces = row(estimator_table, "surface-area"),
                           &unaware = row(estimator_table, "surface-area-hessian"),
                           &triangulated = row(estimator_table, "triangulated"),
                           &swept = row(estimator_table, "swept-edges");
@@ -179,6 +182,18 @@ const Method method_table[] = {
                 &find_volume_metric("relative-change"),
                 {.bounds = volume_preset},
                 true}},
+    {.name = "jarosz2008b",
+     .paper = "[Jarosz 2008b]",
+     .summary = "gradients of irradiance that know of media and occlusion; light in media as `jarosz2008a`",
+     .estimator = &layered,
+     .metric = &bounded,
+     .settings = {.bounds = bounded_preset},
+     .order = 1,
+     .volume = {InScattering::cache,
+                &find_volume_estimator("volume-unaware"),
+                &find_volume_metric("relative-change"),
+                {.bounds = volume_preset},
+                true}},
     {.name = "marco2018",
      .paper = "[Marco 2018]",
      .summary = "light in media by Hessians that see occluders, ellipsoids; surfaces as `schwarzhaupt2012`",
@@ -209,7 +224,12 @@ const Method method_table[] = {
      true,
      true,
      true,
-     {Glossy::automatic, &radiance_aware, &bounded, {.bounds = radiance_preset}, Basis::hemispherical, 2}},
+     {Glossy::automatic, &radiance_aware, &bounded, {.bounds = radiance_preset}, Basis::hemispherical, 2},
+     {InScattering::cache,
+      &find_volume_estimator("volume-walls"),
+      &find_volume_metric("relative-change"),
+      {.bounds = volume_preset},
+      true}},
 };
 
 }  // namespace

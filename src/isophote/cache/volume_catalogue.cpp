@@ -1,6 +1,10 @@
-#include <stdexcept>
+
+#include <cmath>
 
 #include "isophote/cache/catalogue_rows.h"
+#include "isophote/derivatives/jarosz_2008a.h"
+#include "isophote/derivatives/marco_2018.h"
+#include "isophote/derivatives/moving_walls.h"
 #include "isophote/validity/relative_change.h"
 #include "isophote/validity/settle.h"
 #include "isophote/validity/uniform.h"
@@ -10,21 +14,25 @@
 namespace isophote {
 namespace {
 
-// Where the estimators' headers will be included instead.
-VolumeJet jarosz_2008a(const SphereGather&, VolumePart, int) { throw std::logic_error("not yet"); }
-VolumeJet marco_2018(const SphereGather&, VolumePart, int) { throw std::logic_error("not yet"); }
-
 constexpr VolumeEstimator estimator_table[] = {
+    {.name = "volume", .gives = "value, gradients of samples", .sums = true, .estimate = volume_radiance},
     {.name = "volume-unaware",
      .paper = "[Jarosz 2008a]",
      .gives = "value, gradient unaware of occlusion, gradients of samples",
      .order = 1,
      .sums = true,
      .estimate = jarosz_2008a},
+    {.name = "volume-walls",
+     .gives = "value, gradient, gradients of samples",
+     .order = 1,
+     .sums = true,
+     .sees_occluders = true,
+     .estimate = [](const SphereGather& g, VolumePart part, int bands) { return moving_walls(g, part, bands); }},
     {.name = "volume-triangulated",
      .paper = "[Marco 2018]",
-     .gives = "value, gradient, Hessian",
+     .gives = "value, gradient, Hessian, gradients of samples",
      .order = 2,
+     .sums = true,
      .sees_occluders = true,
      .estimate = marco_2018},
 };
@@ -32,14 +40,14 @@ constexpr VolumeEstimator estimator_table[] = {
 float as_threshold(const MetricSettings& s) { return s.a; }
 
 constexpr VolumeMetric metric_table[] = {
-    // Beside one small light radiance is as 1 / r^2. To the first order its logarithm misses d^2 / r^2 at a distance d,
-    // at most; d^2 is 3/5 R^2 in the mean over a ball, and R = a r / 2: together 0.15 a^2.
+    // Chosen by hand, and above 1: a sample's gradient is mostly along it, what of its light comes from near being as
+    // 1 / r^2, and most of that cancels between directions.
     {.name = "relative-change",
      .paper = "[Jarosz 2008a]",
      .bounded = true,
      .by_gradient = true,
      .needs_sums = true,
-     .a_factor = 2.6f,
+     .a_factor = 11.5f,
      .a_power = 0.5f,
      .measure = [](const VolumeJet& jet, const View& view,
                    const MetricSettings& s) { return relative_change(jet, view, s.a, s.bounds); },
@@ -72,7 +80,9 @@ const VolumeMetric& find_volume_metric(std::string_view name) {
   return find_row(metric_table, name, "metric of records in media");
 }
 
-float threshold(const VolumeMetric& metric, double error) { return threshold_of(metric, error); }
+float threshold(const VolumeMetric& metric, double error) {
+  return metric.a_factor * std::pow(static_cast<float>(error), metric.a_power);
+}
 
 VolumeRecord Method::make_volume_record(const SphereGather& gather, VolumePart part, std::uint32_t media, int bands,
                                         const View& view) const {

@@ -5,14 +5,6 @@
 #include "isophote/derivatives/volume_sum.h"
 
 namespace isophote {
-namespace {
-
-void add_scaled(Gradient<Rgbd>& g, const Gradient<Rgb>& logarithmic, const Rgbd& light) {
-  g.x += Rgbd(logarithmic.x) * light, g.y += Rgbd(logarithmic.y) * light, g.z += Rgbd(logarithmic.z) * light;
-}
-
-}  // namespace
-
 // A piece of surface is seen under the solid angle cos_y dA / r^2, a piece of a medium under dV / r^2: as the record
 // moves, the first changes by (3 w + n_y / cos_y) / r of itself, the second by 2 w / r. The integral over the volume
 // has its end at the record: there the source itself is what the ball of places around it gains and loses.
@@ -25,7 +17,7 @@ RaySum::RaySum(const SphereGather& gather, std::size_t sample, VolumePart part)
     const Rgbd light(layers[l].radiance);
     radiance += light;
     over_depth += light / static_cast<double>(layers[l].depth);
-    add_scaled(emitted, layers[l].log_gradient, light);
+    add(emitted, times(layers[l].log_gradient, light), 1);
   }
   if (part == VolumePart::media) {
     add(emitted, direction, -Rgbd(gather.sources[sample]));
@@ -53,7 +45,7 @@ VolumeJet unweighed_jet(const SphereGather& gather, VolumePart part) {
     const RaySum ray(gather, i, part);
     seen.push_back(luminance(ray.radiance));
     value += seen.back() / n;
-    gradient += length(Vec3d{luminance(ray.fixed.x), luminance(ray.fixed.y), luminance(ray.fixed.z)}) / n;
+    gradient += length(luminance_of(ray.fixed)) / n;
     inverse_distances += 1 / static_cast<double>(gather.samples[i].distance);
     jet.nearest = std::min(jet.nearest, gather.samples[i].distance);
   }

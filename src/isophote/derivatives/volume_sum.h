@@ -42,6 +42,12 @@ inline void add(Gradient<Rgbd>& g, const Gradient<Rgbd>& more, double times) {
   g.x += more.x * times, g.y += more.y * times, g.z += more.z * times;
 }
 
+inline Vec3d luminance_of(const Gradient<Rgbd>& g) { return {luminance(g.x), luminance(g.y), luminance(g.z)}; }
+/// Of light, from the gradient of its logarithm.
+inline Gradient<Rgbd> times(const Gradient<Rgb>& logarithmic, const Rgbd& light) {
+  return {Rgbd(logarithmic.x) * light, Rgbd(logarithmic.y) * light, Rgbd(logarithmic.z) * light};
+}
+
 /// An integral over the sphere of radiance times one weight, and its gradient.
 struct WeighedRadiance {
   Rgbd value;

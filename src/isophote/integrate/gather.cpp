@@ -35,9 +35,14 @@ Shells shells_of(const World& world, std::uint64_t key) {
   return {count, first * scale, scale, key};
 }
 
-std::span<GatherLayer> layers_of(std::vector<GatherLayer>& all, const Shells& shells, int sample) {
-  const auto size = static_cast<std::size_t>(shells.count() + 1);
-  return std::span(all).subspan(static_cast<std::size_t>(sample) * size, size);
+/// What media do along the ray of the i-th sample; what they scatter at the record itself, by the first shell.
+template <class Gather>
+void add_layers(const World& world, const FarLight& from, const Ray& ray, const Shells& shells, int i, Sampler& sampler,
+                RayCounts& counts, Gather& gather) {
+  const auto size = static_cast<std::size_t>(shells.count() + 1), index = static_cast<std::size_t>(i);
+  const auto layers = std::span(gather.layers).subspan(index * size, size);
+  gather_layers(world, from, ray, shells, sampler, counts, gather.samples[index], layers);
+  gather.sources[index] = layers[1].radiance / std::min(shells.ends[0], gather.samples[index].distance);
 }
 
 /// A step that visits all of `size` strata, early ones well spread over the hemisphere: the first rays into a cell
@@ -64,6 +69,7 @@ void gather_hemisphere(const World& world, const FarLight& from, const Place& pl
   if (world.media) shells = shells_of(world, key);
   gather.shells = shells ? shells->count() : 0;
   gather.layers.assign(shells ? gather.samples.size() * static_cast<std::size_t>(shells->count() + 1) : 0, {});
+  gather.sources.assign(shells ? gather.samples.size() : 0, {});
   const int step = well_spread_step(strata.size());
   for (int n = 0, i = 0; n < strata.size(); ++n, i = (i + step) % strata.size()) {
     Sampler sampler(key, static_cast<std::uint32_t>(i));
@@ -76,9 +82,7 @@ void gather_hemisphere(const World& world, const FarLight& from, const Place& pl
     }
     const Ray ray{offset_origin(surface, direction), direction};
     gather.samples[i] = meet(world, from, ray, place.medium, sampler, counts);
-    if (shells)
-      gather_layers(world, from, ray, *shells, sampler, counts, gather.samples[i],
-                    layers_of(gather.layers, *shells, i));
+    if (shells) add_layers(world, from, ray, *shells, i, sampler, counts, gather);
   }
 }
 
@@ -96,9 +100,7 @@ void gather_sphere(const World& world, const FarLight& from, const Vec3& positio
     Sampler sampler(key, static_cast<std::uint32_t>(i));
     const Ray ray{position, strata.direction(i / strata.azimuthal, i % strata.azimuthal, sampler.next2())};
     gather.samples[i] = meet(world, from, ray, inside, sampler, counts);
-    const auto layers = layers_of(gather.layers, shells, i);
-    gather_layers(world, from, ray, shells, sampler, counts, gather.samples[i], layers);
-    gather.sources[i] = layers[1].radiance / std::min(shells.ends[0], gather.samples[i].distance);
+    add_layers(world, from, ray, shells, i, sampler, counts, gather);
   }
 }
 

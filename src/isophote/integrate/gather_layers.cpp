@@ -50,7 +50,8 @@ void follow_one_path(const World& world, std::span<const Looked> looked, const V
 Shells::Shells(int count, float first, float last, std::uint64_t key) : ends(count), shares(count) {
   for (int l = 0; l < count; ++l) {
     ends[l] = count == 1 ? last : first * std::pow(last / first, static_cast<float>(l) / static_cast<float>(count - 1));
-    shares[l] = unit_float(static_cast<std::uint32_t>(hash(key, l)));
+    // In the first its depth has to stay away from 0, which derivatives divide by.
+    shares[l] = l == 0 ? 0.5f : unit_float(static_cast<std::uint32_t>(hash(key, l)));
   }
 }
 
