@@ -8,7 +8,8 @@ function(isophote_install component)
   install(EXPORT isophote-${component} NAMESPACE isophote:: DESTINATION ${isophote_package_dir} COMPONENT ${component})
   foreach(folder ${ARGN})
     install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/isophote COMPONENT ${component}
-            FILES_MATCHING PATTERN "*.h" PATTERN "gltf_*" EXCLUDE)  # the parts of the glTF reader are its own affair
+            FILES_MATCHING PATTERN "*.h"
+            REGEX "/((gltf|toml)_[^/]*|media_toml|nano_voxels|density_grid_impl)\\.h$" EXCLUDE)  # the parts of readers are their own affair
   endforeach()
 endfunction()
 
@@ -23,5 +24,8 @@ endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/isophote-config.cmake.in ${PROJECT_BINARY_DIR}/isophote-config.cmake
                               INSTALL_DESTINATION ${isophote_package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/isophote-config-version.cmake COMPATIBILITY SameMinorVersion)
+if(OpenVDB IN_LIST render_packages)
+  install(FILES ${PROJECT_SOURCE_DIR}/cmake/FindOpenVDB.cmake DESTINATION ${isophote_package_dir} COMPONENT render)
+endif()
 install(FILES ${PROJECT_BINARY_DIR}/isophote-config.cmake ${PROJECT_BINARY_DIR}/isophote-config-version.cmake
         DESTINATION ${isophote_package_dir} COMPONENT cache)

@@ -19,9 +19,11 @@ namespace isophote::test {
 namespace fs = std::filesystem;
 
 /// Where things lie in a file: magic, version, scene, length of the settings, settings, survey with threshold, count,
-/// records; basis, count and records of radiance; checksum.
-inline constexpr std::size_t settings_at = 24, survey_bytes = 17, record_bytes = 234, radiance_head_bytes = 9,
-                             radiance_record_bytes = 116, coefficient_bytes = 12;
+/// records; basis, count and records of radiance; count and records of media, twice; checksum.
+inline constexpr std::size_t settings_at = 24, survey_bytes = 17, record_bytes = 235, radiance_head_bytes = 9,
+                             radiance_record_bytes = 117, coefficient_bytes = 12, volume_record_bytes = 133;
+/// Of a file without radiance and media, but for its settings and records.
+inline constexpr std::size_t empty_bytes = settings_at + survey_bytes + 4 * 8 + 1 + 8;
 
 class RecordFileTest : public testing::Test {
  protected:
@@ -78,6 +80,33 @@ class RecordFileTest : public testing::Test {
       r.jet.rays = 300;
       r.jet.distances.harmonic_mean = 2;
       r.jet.distances.obstacles.meet(3, 1);
+    }
+    return file;
+  }
+
+  /// The same with three records of media: of light of surfaces in one band and in three with gradients, the second of
+  /// them in logarithms; and one of light of media.
+  static RecordFile with_media(int count) {
+    RecordFile file = sample(count);
+    RandomPlaces random(29);
+    for (const int bands : {1, 3, 2}) {
+      VolumeRecord& r = file.volumes[bands == 2].emplace_back();
+      static_cast<Site&>(r) = sample(1).records[0];
+      r.normal = {}, r.media = bands == 3 ? 5 : 0x80000001;
+      r.footprint.falloff = Falloff::smooth, r.footprint.order = 1, r.footprint.logarithmic = bands == 3;
+      const auto fill = [&](Coefficients& all) {
+        for (int i = 0; i < bands * bands; ++i) all.push_back(random.colour(-2, 2));
+      };
+      fill(r.jet.value);
+      r.jet.value[0] = random.colour(1, 3);
+      if (bands > 1) fill(r.jet.translational.x), fill(r.jet.translational.y), fill(r.jet.translational.z);
+      r.jet.hessian = {random.number(-1, 1), random.number(-1, 1), random.number(-1, 1),
+                       random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
+      r.jet.value_sum = random.number(0, 2), r.jet.gradient_sum = random.number(0, 2);
+      r.jet.nearest = bands == 1 ? infinity : random.number(0, 2);
+      r.jet.standard_error = random.number(0, 1);
+      r.jet.rays = 2048;
+      r.jet.distances.harmonic_mean = random.number(0, 2);
     }
     return file;
   }

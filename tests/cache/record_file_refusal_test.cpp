@@ -7,8 +7,14 @@
 namespace isophote::test {
 namespace {
 
+/// With the media of another.
+RecordFile joined(RecordFile file, const RecordFile& media) {
+  file.volumes = media.volumes;
+  return file;
+}
+
 TEST_F(RecordFileTest, EveryFlippedByteIsRefused) {
-  write_records(path_, with_radiance(1));
+  write_records(path_, joined(with_radiance(1), with_media(0)));
   const std::string whole = bytes();
   for (std::size_t i = 0; i < whole.size(); ++i)
     for (const int flip : {0x01, 0x80}) {
@@ -20,7 +26,7 @@ TEST_F(RecordFileTest, EveryFlippedByteIsRefused) {
 }
 
 TEST_F(RecordFileTest, EveryTruncationAndAnExtensionIsRefused) {
-  write_records(path_, with_radiance(2));
+  write_records(path_, joined(with_radiance(2), with_media(0)));
   const std::string whole = bytes();
   for (std::size_t size = 0; size < whole.size(); ++size) {
     put(whole.substr(0, size));
@@ -101,8 +107,9 @@ TEST_F(RecordFileTest, UnusableRecordsWithARightChecksumAreRefused) {
       [&](Record& r) { r.footprint.smallest = r.footprint.radius * 2; },
       [&](Record& r) { r.footprint.largest = r.footprint.radius / 2; },
       [&](Record& r) { r.footprint.largest = nan; },
-      [&](Record& r) { r.footprint.falloff = static_cast<Falloff>(3); },
+      [&](Record& r) { r.footprint.falloff = static_cast<Falloff>(4); },
       [&](Record& r) { r.footprint.order = 3; },
+      [&](Record& r) { r.footprint.logarithmic = true; },  // which surfaces are not
       [&](Record& r) { r.curvature_scale = -1; },
       [&](Record& r) { r.jet.hessian.xy = nan; },
       [&](Record& r) { r.curvature_scale = 1, r.jet.hessian.xx = 3e38f; },
@@ -167,6 +174,57 @@ TEST_F(RecordFileTest, UnusableRadianceWithARightChecksumIsRefused) {
     EXPECT_NE(crafted(bands_at + 1, gradient, 1).find("malformed"), std::string::npos) << gradient;
 }
 
+TEST_F(RecordFileTest, UnusableMediaWithARightChecksumAreRefused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::function<void(VolumeRecord&)>> harms = {
+      [&](VolumeRecord& r) { r.position.y = nan; },
+      [&](VolumeRecord& r) {
+        r.normal = {0, 0, 1};
+      },
+      [&](VolumeRecord& r) { r.footprint.radius = 0; },
+      [&](VolumeRecord& r) { r.footprint.shape.xy = nan; },
+      [&](VolumeRecord& r) { r.footprint.order = 2; },
+      [&](VolumeRecord& r) { r.gradient_scale = 2; },
+      [&](VolumeRecord& r) { r.jet.value[0].g = -1; },
+      [&](VolumeRecord& r) { r.jet.value[4].g = nan; },
+      [&](VolumeRecord& r) { r.jet.value[8].b = -3e38f; },
+      [&](VolumeRecord& r) { r.jet.translational.x[0].r = infinity; },
+      [&](VolumeRecord& r) { r.jet.translational.y[7].b = nan; },
+      [&](VolumeRecord& r) { r.jet.translational.z[8].b = 2e30f / r.footprint.radius; },
+      [&](VolumeRecord& r) { r.jet.hessian.yz = infinity; },
+      [&](VolumeRecord& r) { r.jet.value_sum = -1; },
+      [&](VolumeRecord& r) { r.jet.gradient_sum = nan; },
+      [&](VolumeRecord& r) { r.jet.nearest = -1; },
+      [&](VolumeRecord& r) { r.jet.standard_error = infinity; },
+      [&](VolumeRecord& r) { r.jet.distances.harmonic_mean = nan; },
+  };
+  for (std::size_t i = 0; i < harms.size(); ++i) {
+    RecordFile file = with_media(1);
+    harms[i](file.volumes[0][1]);
+    write_records(path_, file);
+    EXPECT_EQ(refusal(), "record 1 of media is malformed") << "harm " << i;
+  }
+  const RecordFile file = with_media(0);
+  write_records(path_, file);
+  const std::string whole = bytes();
+  const std::size_t count_at = settings_at + file.settings.size() + survey_bytes + 8 + radiance_head_bytes,
+                    bands_at = count_at + 8 + volume_record_bytes - 2, logarithmic_at = count_at + 8 + 70;
+  const auto crafted = [&](std::size_t at, std::uint64_t value, int size) {
+    std::string bytes = whole;
+    put_integer(bytes, at, value, size);
+    put_signed(bytes);
+    return refusal();
+  };
+  EXPECT_EQ(crafted(logarithmic_at, 1, 1), "");
+  EXPECT_EQ(crafted(logarithmic_at, 2, 1), "record 0 of media is malformed");
+  for (const std::uint64_t count : {0ull, 1ull, 3ull, 1ull << 40, 0xffffffffffffffffull})
+    EXPECT_NE(crafted(count_at, count, 8).find("malformed"), std::string::npos) << count;
+  for (const unsigned bands : {0u, 2u, 11u, 255u})
+    EXPECT_NE(crafted(bands_at, bands, 1).find("malformed"), std::string::npos) << bands;
+  for (const unsigned gradient : {1u, 2u})
+    EXPECT_NE(crafted(bands_at + 1, gradient, 1).find("malformed"), std::string::npos) << gradient;
+}
+
 TEST_F(RecordFileTest, WhatIsNoRecordFile) {
   EXPECT_EQ(refusal(), "cannot be opened");
   for (const std::string& content :
@@ -200,7 +258,7 @@ TEST_F(RecordFileTest, HugeFilesAreRefusedAtOnce) {
   put_integer(counting, settings_at + survey_bytes - 4, std::bit_cast<std::uint32_t>(1.0f), 4);
   put_integer(counting, settings_at + survey_bytes, count, 8);
   put(counting);
-  fs::resize_file(path_, settings_at + survey_bytes + 16 + radiance_head_bytes + record_bytes * count);
+  fs::resize_file(path_, empty_bytes + record_bytes * count);
   EXPECT_EQ(refusal(), "record 0 is malformed");
 }
 

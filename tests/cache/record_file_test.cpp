@@ -37,8 +37,7 @@ TEST_F(RecordFileTest, RoundTripKeepsEveryBit) {
       EXPECT_EQ(a.jet.distances.obstacles, b.jet.distances.obstacles);
     }
     const std::string first = bytes();
-    EXPECT_EQ(first.size(), settings_at + file.settings.size() + survey_bytes + 16 + radiance_head_bytes +
-                                record_bytes * static_cast<std::size_t>(count));
+    EXPECT_EQ(first.size(), empty_bytes + file.settings.size() + record_bytes * static_cast<std::size_t>(count));
     write_records(path_, back);
     EXPECT_EQ(bytes(), first);
   }
@@ -61,8 +60,41 @@ TEST_F(RecordFileTest, RadianceIsKeptToo) {
     EXPECT_EQ(a.jet.distances.obstacles, b.jet.distances.obstacles);
   }
   const std::string first = bytes();
-  EXPECT_EQ(first.size(), settings_at + file.settings.size() + survey_bytes + 16 + radiance_head_bytes + record_bytes +
-                              2 * radiance_record_bytes + coefficient_bytes * (1 + 3 * 9));
+  EXPECT_EQ(first.size(), empty_bytes + file.settings.size() + record_bytes + 2 * radiance_record_bytes +
+                              coefficient_bytes * (1 + 3 * 9));
+  write_records(path_, back);
+  EXPECT_EQ(bytes(), first);
+}
+
+TEST_F(RecordFileTest, MediaAreKeptToo) {
+  const RecordFile file = with_media(1);
+  write_records(path_, file);
+  const RecordFile back = read_records(path_);
+  for (std::size_t part = 0; part < 2; ++part) {
+    ASSERT_EQ(back.volumes[part].size(), file.volumes[part].size());
+    for (std::size_t i = 0; i < file.volumes[part].size(); ++i) {
+      const VolumeRecord &a = file.volumes[part][i], &b = back.volumes[part][i];
+      EXPECT_EQ(a.position, b.position);
+      EXPECT_EQ(b.normal, Vec3{});
+      EXPECT_EQ(a.footprint.shape, b.footprint.shape);
+      EXPECT_EQ(a.footprint.falloff, b.footprint.falloff);
+      EXPECT_EQ(a.footprint.logarithmic, b.footprint.logarithmic);
+      EXPECT_EQ(a.media, b.media);
+      EXPECT_EQ(a.jet.value, b.jet.value);
+      EXPECT_EQ(a.jet.translational, b.jet.translational);
+      EXPECT_EQ(a.jet.hessian, b.jet.hessian);
+      EXPECT_EQ(a.jet.value_sum, b.jet.value_sum);
+      EXPECT_EQ(a.jet.gradient_sum, b.jet.gradient_sum);
+      EXPECT_EQ(a.jet.nearest, b.jet.nearest);
+      EXPECT_EQ(a.jet.standard_error, b.jet.standard_error);
+      EXPECT_EQ(a.jet.gradient_error, b.jet.gradient_error);
+      EXPECT_EQ(a.jet.rays, b.jet.rays);
+      EXPECT_EQ(a.jet.distances.harmonic_mean, b.jet.distances.harmonic_mean);
+    }
+  }
+  const std::string first = bytes();
+  EXPECT_EQ(first.size(), empty_bytes + file.settings.size() + record_bytes + 3 * volume_record_bytes +
+                              coefficient_bytes * (1 + 4 * 9 + 4 * 4));
   write_records(path_, back);
   EXPECT_EQ(bytes(), first);
 }
@@ -70,12 +102,14 @@ TEST_F(RecordFileTest, RadianceIsKeptToo) {
 TEST_F(RecordFileTest, IsLittleEndianAndVersioned) {
   write_records(path_, sample(1));
   const std::string content = bytes();
-  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\6\0\0\0", 12));
+  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\7\0\0\0", 12));
   EXPECT_EQ(static_cast<unsigned char>(content[12]), 0xef);  // the scene's lowest byte
-  std::string later = content;
-  put_integer(later, 8, 7, 4);
-  put_signed(later);
-  EXPECT_EQ(refusal(), "has version 7, this program reads 6");
+  for (const unsigned other : {6u, 8u}) {
+    std::string crafted = content;
+    put_integer(crafted, 8, other, 4);
+    put_signed(crafted);
+    EXPECT_EQ(refusal(), "has version " + std::to_string(other) + ", this program reads 7");
+  }
 }
 
 TEST_F(RecordFileTest, FlatFootprintsAreKept) {

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from program import BOX, SCENES, ProgramTest, quick
 
-METHODS = ("path", "ward1988", "ward1992", "bounded", "krivanek2005a", "krivanek2005b", "krivanek2006", "jarosz2012", "schwarzhaupt2012", "swept", "uniform", "cached")
+METHODS = ("path", "ward1988", "ward1992", "bounded", "krivanek2005a", "krivanek2005b", "krivanek2006", "jarosz2008a", "marco2018", "jarosz2012", "schwarzhaupt2012", "swept", "uniform", "cached")
 
 
 class BadUsage(ProgramTest):

@@ -11,6 +11,7 @@
 #include "isophote/cache/radiance_cache.h"
 #include "isophote/cache/radiance_regression.h"
 #include "isophote/cache/record_file.h"
+#include "isophote/cache/volume_cache.h"
 #include "isophote/core/error.h"
 #include "support/sign_record_file.h"
 
@@ -39,6 +40,16 @@ void reflect(const RadianceCache& cache, const RadianceRecord& record, const Vec
   if (found && !(is_finite(*found) && std::min({found->r, found->g, found->b}) >= 0)) std::abort();
 }
 
+/// Nor is what media scatter towards any side.
+void scatter(const VolumeCache& cache, const VolumeRecord& record, const Vec3& offset) {
+  const int bands = VolumeCache::bands(record);
+  for (const Vec3& wo : {Vec3{0, 0, 1}, Vec3{0.6f, -0.8f, 0}}) {
+    const auto found = cache.scattered({record.position + offset * record.footprint.radius, record.media},
+                                       phase_lobe(0.6f, wo, bands), bands);
+    if (found && !(is_finite(*found) && std::min({found->r, found->g, found->b}) >= 0)) std::abort();
+  }
+}
+
 /// As many as there were, each fitted to its neighbours.
 RadianceCache fitted(const RadianceCache& cache) {
   const RadianceRegression regression(cache);
@@ -60,6 +71,13 @@ void use(const std::string& path, const std::string& bytes) {
   for (const RadianceCache& each : {radiance, fitted(radiance)})
     for (const RadianceRecord& record : each.records())
       for (const Vec3& offset : {Vec3{}, Vec3{0.5f, 0, 0}, Vec3{0, 0, 0.5f}}) reflect(each, record, offset);
+  VolumeCaches volumes(cache.bounds());
+  for (const VolumePart part : {VolumePart::surfaces, VolumePart::media}) {
+    const auto& records = file.volumes[static_cast<std::size_t>(part)];
+    for (const VolumeRecord& record : records) volumes.of(part).insert(record);
+    for (const VolumeRecord& record : records)
+      for (const Vec3& offset : {Vec3{}, Vec3{0.5f, 0, 0}, Vec3{0, 0, 0.5f}}) scatter(volumes.of(part), record, offset);
+  }
   write_records(path, file);
   if (content(path) != bytes) std::abort();
 }

@@ -10,7 +10,7 @@ if(component STREQUAL "render")
   list(APPEND components render)
 else()
   # The caching arm must be found where nothing of what the renderer needs is installed.
-  foreach(package embree OpenEXR PNG TinyGLTF tomlplusplus fmt TBB)
+  foreach(package embree OpenEXR PNG TinyGLTF tomlplusplus fmt TBB OpenVDB)
     list(APPEND arguments -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
   endforeach()
 endif()

@@ -5,6 +5,8 @@
 #include "isophote/image/false_colour.h"
 #include "isophote/integrate/record_picture.h"
 #include "isophote/integrate/scene_hash.h"
+#include "isophote/scene/density_grid.h"
+#include "support/media.h"
 #include "support/scenes.h"
 
 // Records kept on file, told to belong to a scene, and shown.
@@ -107,6 +109,46 @@ TEST(SceneHash, SeesWhateverDecidesLightAndNoCamera) {
     EXPECT_EQ(std::count(seen.begin(), seen.end(), h), 0) << "change " << i;
     seen.push_back(h);
   }
+}
+
+TEST(SceneHash, SeesMedia) {
+  const auto grid = [](float value) { return DensityGrid::from_values({1, 1, 2}, {1, value}, {}); };
+  Medium fog = scenes::medium(Rgb(1.0f), Rgb(0.5f), {{-1, -1, -1}, {1, 1, 1}});
+  const std::vector<std::function<void(Medium&)>> changes = {
+      [](Medium&) {},
+      [](Medium& m) { m.scattering.g = 1.5f; },
+      [](Medium& m) { std::swap(m.scattering, m.absorption); },
+      [](Medium& m) { m.emission.b = 1; },
+      [](Medium& m) { m.g = 0.1f; },
+      [](Medium& m) { std::get<Box>(m.bounds).upper.z = 2; },
+      [](Medium& m) {
+        m.bounds = scenes::closed_box({-1, -1, -1}, {1, 1, 1});
+      },
+      [](Medium& m) {
+        m.bounds = scenes::closed_box({-1, -1, -1}, {1, 1, 2});
+      },
+      [](Medium& m) {
+        m.density = HeightDensity{0, 1};
+      },
+      [](Medium& m) {
+        m.density = HeightDensity{0, 2};
+      },
+      [&](Medium& m) { m.density = grid(1); },
+      [&](Medium& m) { m.density = grid(2); },
+  };
+  Scene scene = scenes::cornell_box();
+  std::vector<std::uint64_t> seen{scene_hash(scene)};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    Medium changed = fog;
+    changes[i](changed);
+    scene.media = {changed};
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), scene_hash(scene)), 0) << "change " << i;
+    seen.push_back(scene_hash(scene));
+  }
+  Medium named = fog;
+  named.name = "fog", named.density = grid(2);
+  scene.media = {named};
+  EXPECT_EQ(scene_hash(scene), seen.back());
 }
 
 TEST(RecordPicture, DrawsADotAtEachRecordAndARimAroundIt) {

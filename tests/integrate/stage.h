@@ -23,6 +23,7 @@ inline Method method(const std::string& name, double error = 0.02) {
   Method m = find_method(name);
   if (m.caches()) m.settings.a = threshold(*m.metric, error);
   if (m.glossy.caches()) m.glossy.settings.a = threshold(*m.glossy.metric, error);
+  if (m.volume.caches()) m.volume.settings.a = threshold(*m.volume.metric, error);
   m.adaptive = false;  // a test says itself how many rays there are
   return m;
 }
@@ -30,7 +31,7 @@ inline Method method(const std::string& name, double error = 0.02) {
 /// A scene with all that rendering it takes.
 class Stage {
  public:
-  explicit Stage(Scene scene) : scene_(std::move(scene)), rays_(scene_), emitters_(scene_) {}
+  explicit Stage(Scene scene) : scene_(std::move(scene)), rays_(scene_), emitters_(scene_), media_(scene_) {}
   /// One of the project's own scenes.
   explicit Stage(const std::string& file)
       : Stage(load_scene(std::string(ISOPHOTE_SOURCE_DIR) + "/scenes/" + file, [](const std::string& warning) {
@@ -40,7 +41,9 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
 
   const Scene& scene() const { return scene_; }
-  World world() const { return {scene_, rays_, emitters_}; }
+  World world() const {
+    return {scene_, rays_, emitters_, std::numeric_limits<int>::max(), scene_.media.empty() ? nullptr : &media_};
+  }
 
   /// On two threads; `camera` is a name, or empty for the first.
   Job job(const Method& how, int width, int height, int samples, const std::string& camera = "") const {
@@ -59,6 +62,7 @@ class Stage {
   Scene scene_;
   RayCaster rays_;
   Emitters emitters_;
+  Media media_;
 };
 
 struct Rendered {

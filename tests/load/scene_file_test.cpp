@@ -73,7 +73,7 @@ TEST(SceneToml, ErrorsNameTheirLine) {
   EXPECT_EQ(toml_error("scene = 'a.glb'\n"), "a.toml:1: 'scene' must be a table");
   EXPECT_EQ(toml_error("[scene]\nfiel = 'a.glb'\n"), "a.toml:2: unknown key 'fiel' in [scene]: there are file");
   EXPECT_EQ(toml_error(scene + "[camera]\nfov = 3\n"),
-            "a.toml:3: unknown table or key 'camera': there are scene, environment, film, method");
+            "a.toml:3: unknown table or key 'camera': there are scene, environment, media, film, method");
   EXPECT_EQ(toml_error(scene + "[environment]\nfile = 'a'\nturn = 3\n"),
             "a.toml:5: unknown key 'turn' in [environment]: there are file, rotation, intensity");
   EXPECT_EQ(toml_error(scene + "[environment]\n"), "a.toml:3: [environment] needs a key 'file'");

@@ -10,7 +10,8 @@ struct Stage {
   Scene scene;
   RayCaster rays{scene};
   Emitters emitters{scene};
-  World world{scene, rays, emitters};
+  Media media{scene};
+  World world{scene, rays, emitters, std::numeric_limits<int>::max(), scene.media.empty() ? nullptr : &media};
   RayCounts counts;
 
   explicit Stage(Scene s) : scene(std::move(s)) {}
@@ -27,6 +28,7 @@ struct Stage {
     const FirstPoint first = first_point(world, ray, true, sampler, counts.camera);
     Scattered out;
     if (first.point) out = scatter(world, *first.point, -first.direction, first.depth, sampler, counts);
+    if (first.medium_point) out = scatter(world, *first.medium_point, first.direction, first.depth, sampler, counts);
     out.direct = first.emission + first.throughput * out.direct;
     out.indirect *= first.throughput;
     return out;

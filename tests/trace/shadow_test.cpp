@@ -113,7 +113,8 @@ TEST(Shadow, ALampDoesNotHideItself) {
         point.position = centre - point.geometric_normal * (5 * random.next() + size);
         const LightSample light = stage.emitters.sample(point.position, random.next(), random.next2());
         if (light.pdf > 0) {
-          EXPECT_EQ(light_transmittance(stage.world, point, light, 0, stage.counts), Rgb(1.0f));
+          EXPECT_EQ(light_transmittance(stage.world, ShadowStart(point, light.direction), light, 0, stage.counts),
+                    Rgb(1.0f));
         }
       }
     }

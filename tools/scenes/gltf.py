@@ -148,11 +148,19 @@ class Gltf:
 
     def spot(self, name, eye, target, color, intensity, inner, outer):
         """`intensity` in W/sr, the cone's half angles in degrees."""
+        self._light({"name": name, "type": "spot", "color": color, "intensity": intensity,
+                     "spot": {"innerConeAngle": float32(math.radians(inner)),
+                              "outerConeAngle": float32(math.radians(outer))}}, look_at(eye, target))
+
+    def sun(self, name, towards, color, irradiance):
+        """Parallel light that travels along `towards`; `irradiance` in W/m2 on a surface that faces it."""
+        self._light({"name": name, "type": "directional", "color": color, "intensity": irradiance},
+                    look_at((0, 0, 0), towards))
+
+    def _light(self, light, matrix):
         self.extensions.add("KHR_lights_punctual")
-        self.lights.append({"name": name, "type": "spot", "color": color, "intensity": intensity,
-                            "spot": {"innerConeAngle": float32(math.radians(inner)),
-                                     "outerConeAngle": float32(math.radians(outer))}})
-        self.nodes.append({"name": name, "matrix": look_at(eye, target),
+        self.lights.append(light)
+        self.nodes.append({"name": light["name"], "matrix": matrix,
                            "extensions": {"KHR_lights_punctual": {"light": len(self.lights) - 1}}})
 
     def bytes(self):

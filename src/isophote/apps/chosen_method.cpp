@@ -66,6 +66,32 @@ GlossyMethod chosen_glossy(const RenderSettings& s, const Method& method) {
   return glossy;
 }
 
+VolumeMethod chosen_volume(const RenderSettings& s, const Method& method) {
+  VolumeMethod volume = method.volume;
+  if (!volume.caches() && s.media.value_or(InScattering::paths) == InScattering::cache)
+    volume = find_method("cached").volume;
+  // A cached value has no depth, and is made before the first pixel is.
+  volume.from = s.media.value_or(s.lazy || s.max_depth ? InScattering::paths : volume.from);
+  if (volume.caches() && s.lazy) throw UsageError("--media cache builds in rounds: no --order lazy");
+  if (volume.caches() && s.max_depth) throw UsageError("--media cache has no limit of depth: leave out --max-depth");
+  if (!volume.caches()) {
+    if (!s.media_estimator.empty() || !s.media_metric.empty() || s.media_a)
+      throw UsageError("--media-... is about records in media: it takes --media cache");
+    return volume;
+  }
+  if (!s.media_estimator.empty()) volume.estimator = &find_volume_estimator(s.media_estimator);
+  if (!s.media_metric.empty()) volume.metric = &find_volume_metric(s.media_metric);
+  if (volume.metric->bounded)
+    apply_bounds(s, volume.settings.bounds);
+  else
+    volume.settings.bounds = {};
+  if (!volume.metric->by_gradient) volume.settings.bounds.gradient = false;
+  if (!volume.metric->elliptical) volume.settings.aspect = 1;
+  const double error = s.a ? method.error() : s.error.value_or(default_error);
+  volume.settings.a = s.media_a.value_or(threshold(*volume.metric, error));
+  return volume;
+}
+
 }  // namespace
 
 Method chosen_method(const RenderSettings& s) {
@@ -105,6 +131,7 @@ Method chosen_method(const RenderSettings& s) {
     throw UsageError(fmt::format("--regress on needs gradients and their errors, which estimator '{}' does not give",
                                  method.estimator->name));
   method.glossy = chosen_glossy(s, method);
+  method.volume = chosen_volume(s, method);
   check_combination(method);
   return method;
 }

@@ -9,15 +9,15 @@
 
 namespace isophote::app {
 int methods() {
-  std::vector<Row> rows = {{"method", "estimator", "metric", "bounds", "secondary", "glossy", "what it is"}};
+  std::vector<Row> rows = {{"method", "estimator", "metric", "bounds", "secondary", "glossy", "media", "what it is"}};
   for (const Method& m : isophote::methods()) {
     const std::string what = std::string(m.summary) + (m.paper.empty() ? "" : " ") + std::string(m.paper);
     if (m.caches())
       rows.push_back({std::string(m.name), std::string(m.estimator->name), std::string(m.metric->name),
                       describe(m.settings.bounds), std::string(name_of(m.secondary)),
-                      std::string(name_of(m.glossy.from)), what});
+                      std::string(name_of(m.glossy.from)), std::string(name_of(m.volume.from)), what});
     else
-      rows.push_back({std::string(m.name), "-", "-", "-", "-", "-", what});
+      rows.push_back({std::string(m.name), "-", "-", "-", "-", "-", "-", what});
   }
   print_table(rows);
 
@@ -33,12 +33,28 @@ int methods() {
   fmt::print("\n");
   print_table(rows);
 
+  rows = {{"estimator in media", "gives", "paper"}};
+  for (const VolumeEstimator& e : volume_estimators())
+    rows.push_back({std::string(e.name), std::string(e.gives), std::string(e.paper)});
+  fmt::print("\n");
+  print_table(rows);
+
   rows = {{"metric", "needs", "paper"}};
   for (const Metric& m : metrics())
     rows.push_back({std::string(m.name),
                     m.needs > 1 ? "a Hessian"
                     : m.bounded ? "distances; a gradient for the gradient bound"
                                 : "distances",
+                    std::string(m.paper)});
+  fmt::print("\n");
+  print_table(rows);
+
+  rows = {{"metric in media", "needs", "paper"}};
+  for (const VolumeMetric& m : volume_metrics())
+    rows.push_back({std::string(m.name),
+                    m.needs_sums  ? "gradients of samples"
+                    : m.needs > 1 ? "a Hessian"
+                                  : "nothing",
                     std::string(m.paper)});
   fmt::print("\n");
   print_table(rows);

@@ -87,6 +87,7 @@ class Rendering {
     for (const Record& record : cache.records()) statistics_.record_rays += record.jet.rays;
     statistics_.record_rays /= std::max(1.0, static_cast<double>(cache.records().size()));
     if (cache.radiance()) statistics_.glossy.emplace().take(job().method.glossy, *cache.radiance());
+    if (cache.volumes()) statistics_.media.emplace().take(job().method.volume, *cache.volumes());
     if (!request_.save_cache.empty()) session_.save(cache, request_.save_cache);
     show(shown(cache));
     if (request_.check && !measured_ && !statistics_.cancelled) check(cache);

@@ -7,6 +7,7 @@
 
 #include "isophote/cache/radiance_cache.h"
 #include "isophote/cache/record_file.h"
+#include "isophote/cache/volume_cache.h"
 #include "isophote/core/error.h"
 #include "isophote/integrate/film.h"
 #include "isophote/integrate/regress.h"
@@ -42,6 +43,13 @@ std::string glossy_settings(const GlossyMethod& g) {
                      g.contrast);
 }
 
+std::string media_settings(const VolumeMethod& v) {
+  if (!v.caches()) return std::string(name_of(v.from));
+  return fmt::format("{}, {}, {}, a = {}, aspect {}, {}, {}", name_of(v.from), v.estimator->name, v.metric->name,
+                     v.settings.a, v.settings.aspect, describe(v.settings.bounds),
+                     v.logarithmic ? "logarithmic" : "linear");
+}
+
 /// What shapes records, for the record file. The view and the seed do not matter: records of another view or seed serve
 /// as well.
 std::string record_settings(const Job& job) {
@@ -50,19 +58,30 @@ std::string record_settings(const Job& job) {
   return fmt::format(
       "estimator={}\nmetric={}\na={}\nmin-pixels={}\nmax-pixels={}\nmin-view={}\nmax-view={}\nmin-radius={}\n"
       "max-radius={}\nbound-gradient={}\nbound-neighbours={}\naspect={}\nextrapolate={}\nweight={}\ngather={}\n"
-      "secondary={}\nleak-test={}\nmax-depth={}\nglossy={}\n",
+      "secondary={}\nleak-test={}\nmax-depth={}\nglossy={}\nmedia={}\n",
       m.estimator->name, m.metric->name, m.settings.a, b.min_pixels, b.max_pixels, b.min_view, b.max_view, b.min_length,
       b.max_length, b.gradient, b.neighbours, m.settings.aspect, m.order,
       m.settings.falloff ? static_cast<int>(*m.settings.falloff) : -1,
       m.adaptive ? fmt::format("auto, to {:.2g} of the error", m.noise() / m.error())
                  : fmt::format("{}x{}", job.strata.polar, job.strata.azimuthal),
-      name_of(m.secondary), m.leak_test, job.world.max_depth, glossy_settings(m.glossy));
+      name_of(m.secondary), m.leak_test, job.world.max_depth, glossy_settings(m.glossy),
+      job.world.media ? media_settings(m.volume) : "none");
 }
 
 std::vector<RadianceRecord> radiance_of(const RecordCache& cache) {
   if (!cache.radiance()) return {};
   const auto records = cache.radiance()->records();
   return {records.begin(), records.end()};
+}
+
+std::array<std::vector<VolumeRecord>, 2> volumes_of(const RecordCache& cache) {
+  std::array<std::vector<VolumeRecord>, 2> all;
+  for (const VolumePart part : {VolumePart::surfaces, VolumePart::media})
+    if (cache.volumes()) {
+      const auto records = cache.volumes()->of(part).records();
+      all[static_cast<std::size_t>(part)].assign(records.begin(), records.end());
+    }
+  return all;
 }
 
 }  // namespace
@@ -122,8 +141,10 @@ void Session::prepare() {
   } catch (const UserError& error) {
     throw UserError(fmt::format("{}: {}", request_.scene, error.what()));
   }
-  job_.emplace(Job{
-      World{loaded_.scene, *rays_, *emitters_, settings_.max_depth.value_or(std::numeric_limits<int>::max())}, camera});
+  if (!loaded_.scene.media.empty()) media_.emplace(loaded_.scene);
+  job_.emplace(Job{World{loaded_.scene, *rays_, *emitters_,
+                         settings_.max_depth.value_or(std::numeric_limits<int>::max()), media_ ? &*media_ : nullptr},
+                   camera});
   Job& job = *job_;
   job.height = settings_.height.value_or(512);
   job.width = settings_.width.value_or(
@@ -147,6 +168,10 @@ RecordCache Session::starting_cache() {
   for (const Record& record : file.records) cache.insert(record);
   if (cache.radiance())
     for (const RadianceRecord& record : file.radiance) cache.radiance()->insert(record);
+  for (const VolumePart part : {VolumePart::surfaces, VolumePart::media})
+    if (cache.volumes())
+      for (const VolumeRecord& record : file.volumes[static_cast<std::size_t>(part)])
+        cache.volumes()->of(part).insert(record);
   job_->pilot = file.pilot;
   job_->method.settings.a = file.threshold;
   return cache;
@@ -188,7 +213,8 @@ void Session::save(const RecordCache& cache, const std::string& path) const {
                        job_->method.settings.a,
                        {records.begin(), records.end()},
                        job.method.glossy.basis,
-                       radiance_of(cache)});
+                       radiance_of(cache),
+                       volumes_of(cache)});
 }
 
 }  // namespace isophote::app

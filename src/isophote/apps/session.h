@@ -57,6 +57,7 @@ class Session {
   Method method_;
   std::optional<RayCaster> rays_;
   std::optional<Emitters> emitters_;
+  std::optional<Media> media_;
   std::optional<Job> job_;
 };
 

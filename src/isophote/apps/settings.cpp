@@ -54,6 +54,12 @@ Secondary secondary(const std::string& text) {
   throw UsageError(fmt::format("wants off, cells, records or auto, not '{}'", text));
 }
 
+InScattering in_scattering(const std::string& text) {
+  for (const InScattering s : {InScattering::paths, InScattering::cache})
+    if (text == name_of(s)) return s;
+  throw UsageError(fmt::format("wants cache or paths, not '{}'", text));
+}
+
 Glossy glossy(const std::string& text) {
   for (const Glossy g : {Glossy::rays, Glossy::cache, Glossy::automatic})
     if (text == name_of(g)) return g;
@@ -124,6 +130,14 @@ constexpr Option table[] = {
      "part of what is reflected by which records of incident radiance may differ where they overlap, before they "
      "shrink; 0: any (method krivanek2006: 0.1)",
      [](S& s, T t) { s.glossy_contrast = number<float>(t, 0, 1); }, true},
+    {"method", "media", "cache|paths", "what media take the light from that they scatter more than once or of surfaces",
+     [](S& s, T t) { s.media = in_scattering(t); }},
+    {"method", "media-estimator", "NAME", "another estimator of radiance in media than the method's",
+     [](S& s, T t) { s.media_estimator = find_volume_estimator(t).name; }, true},
+    {"method", "media-metric", "NAME", "another metric for records in media than the method's",
+     [](S& s, T t) { s.media_metric = find_volume_metric(t).name; }, true},
+    {"method", "media-a", "A", "threshold of that metric (default: by --error, or the error that --a aims at)",
+     [](S& s, T t) { s.media_a = number<float>(t, least_threshold, 100); }, true},
     {"method", "glossy-window", "on|off",
      "do the later harmonics of a lobe count less (Hanning's window), against ringing? (default: off)",
      [](S& s, T t) { s.glossy_window = on_off(t); }, true},

@@ -12,7 +12,7 @@ namespace isophote::app {
 
 /// Everything `render` can be told, with its defaults. Flags and scene files write here through one table.
 struct RenderSettings {
-  std::string method = "cached", estimator, metric, glossy_estimator, glossy_metric;
+  std::string method = "cached", estimator, metric, glossy_estimator, glossy_metric, media_estimator, media_metric;
   std::optional<int> width, height;
   std::string camera;
   int samples = 16;
@@ -23,7 +23,8 @@ struct RenderSettings {
   std::optional<Secondary> secondary;
   std::optional<bool> leak_test, regress, glossy_window;
   std::optional<Glossy> glossy;
-  std::optional<float> glossy_a, glossy_contrast;
+  std::optional<InScattering> media;
+  std::optional<float> glossy_a, glossy_contrast, media_a;
   std::optional<Basis> basis;
   bool lazy = false;
   std::optional<float> min_pixels, max_pixels, min_view, max_view, min_radius, max_radius;

@@ -54,6 +54,15 @@ Json glossy_records(const Statistics::GlossyRecords& g) {
           {"bytes", g.bytes}};
 }
 
+Json media_records(const Statistics::MediaRecords& m) {
+  return {{"from", name_of(m.method.from)},
+          {"estimator", m.method.estimator->name},
+          {"metric", m.method.metric->name},
+          {"a", m.method.settings.a},
+          {"records", {{"surfaces", m.surfaces}, {"media", m.media}}},
+          {"bytes", m.bytes}};
+}
+
 /// What gather rays read where they hit, and why.
 std::string describe_secondary(const Statistics& s) {
   std::string text(name_of(s.seeding.chosen));
@@ -86,6 +95,16 @@ void Statistics::GlossyRecords::take(const GlossyMethod& by, const RadianceCache
   bands /= std::max<double>(1, static_cast<double>(records)), rays /= std::max<double>(1, static_cast<double>(records));
 }
 
+void Statistics::MediaRecords::take(const VolumeMethod& by, const VolumeCaches& caches) {
+  method = by;
+  surfaces = caches.surfaces.records().size(), media = caches.media.records().size();
+  for (const VolumeCache* cache : {&caches.surfaces, &caches.media})
+    for (const VolumeRecord& r : cache->records()) {
+      const auto& [x, y, z] = r.jet.translational;
+      bytes += sizeof(r) + sizeof(Rgb) * (r.jet.value.size() + x.size() + y.size() + z.size());
+    }
+}
+
 std::uint64_t Statistics::peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -111,6 +130,11 @@ void Statistics::print() const {
           glossy->records, glossy->bands, name_of(glossy->method.basis), glossy->rays,
           static_cast<double>(glossy->bytes) / 1e6, glossy->method.settings.a, glossy->method.estimator->name,
           glossy->method.metric->name);
+    if (media)
+      fmt::print(
+          "  media      {} records of surfaces' light, {} of media's ({:.1f} MB), a = {:g}, estimator {}, metric {}\n",
+          media->surfaces, media->media, static_cast<double>(media->bytes) / 1e6, media->method.settings.a,
+          media->method.estimator->name, media->method.metric->name);
   }
   fmt::print(
       "  CPU        load {:.2f} s, build {:.2f} s, final {:.2f} s, check {:.2f} s; wall {:.2f} s on {} threads\n",
@@ -172,6 +196,7 @@ void Statistics::write_json(const std::string& path) const {
   if (!estimator.empty()) {
     json["parameters"] = parameters(*this);
     json["glossy"] = glossy ? glossy_records(*glossy) : Json(nullptr);
+    json["media"] = media ? media_records(*media) : Json(nullptr);
     json["error"] = measured(error, error_asked);
   }
   AtomicFile file(path);

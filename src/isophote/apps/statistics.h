@@ -4,6 +4,7 @@
 #include <string>
 
 #include "isophote/cache/radiance_cache.h"
+#include "isophote/cache/volume_cache.h"
 #include "isophote/integrate/check_points.h"
 #include "isophote/integrate/job.h"
 #include "isophote/integrate/pilot.h"
@@ -32,6 +33,14 @@ struct Statistics {
     void take(const GlossyMethod& method, const RadianceCache& cache);
   };
   std::optional<GlossyRecords> glossy;
+  /// Records of radiance in media.
+  struct MediaRecords {
+    VolumeMethod method{};
+    std::size_t surfaces = 0, media = 0, bytes = 0;  ///< of their light, records; of both, memory
+
+    void take(const VolumeMethod& method, const VolumeCaches& caches);
+  };
+  std::optional<MediaRecords> media;
   std::size_t records = 0, rounds = 0, triangles = 0;
   int passes = 0, refinements = 0;
   std::uint64_t uncovered = 0, samples = 0, seed = 0;

@@ -1,10 +1,10 @@
 #include "isophote/cache/catalogue.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
+#include "isophote/cache/catalogue_rows.h"
 #include "isophote/core/error.h"
+#include "isophote/derivatives/jarosz_2008b.h"
 #include "isophote/derivatives/jarosz_2012.h"
 #include "isophote/derivatives/krivanek_2005a.h"
 #include "isophote/derivatives/krivanek_2005b.h"
@@ -28,6 +28,8 @@ constexpr Estimator estimator_table[] = {
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact); }},
     {"ward-heckbert-harmonic", "[Ward, Heckbert 1992]", "the same, walls on one surface at their harmonic mean", 1,
      [](const HemisphereGather& g) { return ward_heckbert_1992(g, RotationWeights::exact, WallDistance::harmonic); }},
+    {"layered", "[Jarosz 2008b]", "value, gradients that know of media", 1,
+     [](const HemisphereGather& g) { return jarosz_2008b(g); }},
     {"surface-area", "[Krivanek 2005a]", "value, gradients unaware of occlusion", 1, krivanek_2005a},
     {"surface-area-hessian", "[Jarosz 2012]", "value, gradients, Hessian unaware of occlusion", 2, jarosz_2012},
     {"triangulated", "[Schwarzhaupt 2012]", "value, gradients, Hessian", 2,
@@ -107,7 +109,7 @@ consteval const auto& row(const Table& table, std::string_view name) {
 constexpr const Estimator &no_gradients = row(estimator_table, "irradiance"),
                           &classical = row(estimator_table, "ward-heckbert"),
                           &exact = row(estimator_table, "ward-heckbert-exact"),
-                          &pieces = row(estimator_table, "surface-area"),
+                          &layered = row(estimator_table, "layered"), &pieces = row(estimator_table, "surface-area"),
                           &unaware = row(estimator_table, "surface-area-hessian"),
                           &triangulated = row(estimator_table, "triangulated"),
                           &swept = row(estimator_table, "swept-edges");
@@ -122,6 +124,8 @@ const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.08f, .max_vie
 const RadiusBounds radiance_preset{.min_pixels = 1.5f, .min_view = 0.04f, .max_view = 0.1f, .neighbours = 1};
 const RadiusBounds gradient_preset{.min_pixels = 1.5f, .gradient = true, .neighbours = 1};
 const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = 1};
+const RadiusBounds volume_preset{.min_pixels = 1.5f, .neighbours = 1};
+constexpr float volume_aspect = 4;
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.
 const Method method_table[] = {
@@ -166,6 +170,41 @@ const Method method_table[] = {
      &total,
      {.bounds = safety, .aspect = any_aspect},
      1},
+    {.name = "jarosz2008a",
+     .paper = "[Jarosz 2008a]",
+     .summary = "light in media by relative change and in logarithms; surfaces as `bounded`",
+     .estimator = &exact,
+     .metric = &bounded,
+     .settings = {.bounds = bounded_preset},
+     .order = 1,
+     .volume = {InScattering::cache,
+                &find_volume_estimator("volume-unaware"),
+                &find_volume_metric("relative-change"),
+                {.bounds = volume_preset},
+                true}},
+    {.name = "jarosz2008b",
+     .paper = "[Jarosz 2008b]",
+     .summary = "gradients of irradiance that know of media and occlusion; light in media as `jarosz2008a`",
+     .estimator = &layered,
+     .metric = &bounded,
+     .settings = {.bounds = bounded_preset},
+     .order = 1,
+     .volume = {InScattering::cache,
+                &find_volume_estimator("volume-unaware"),
+                &find_volume_metric("relative-change"),
+                {.bounds = volume_preset},
+                true}},
+    {.name = "marco2018",
+     .paper = "[Marco 2018]",
+     .summary = "light in media by Hessians that see occluders, ellipsoids; surfaces as `schwarzhaupt2012`",
+     .estimator = &triangulated,
+     .metric = &total,
+     .settings = {.bounds = safety, .aspect = any_aspect},
+     .order = 1,
+     .volume = {InScattering::cache,
+                &find_volume_estimator("volume-triangulated"),
+                &find_volume_metric("volume-error"),
+                {.bounds = volume_preset, .aspect = volume_aspect}}},
     {"swept",
      "",
      "Hessian by swept edges, ellipses, second order",
@@ -185,18 +224,13 @@ const Method method_table[] = {
      true,
      true,
      true,
-     {Glossy::automatic, &radiance_aware, &bounded, {.bounds = radiance_preset}, Basis::hemispherical, 2}},
+     {Glossy::automatic, &radiance_aware, &bounded, {.bounds = radiance_preset}, Basis::hemispherical, 2},
+     {InScattering::cache,
+      &find_volume_estimator("volume-walls"),
+      &find_volume_metric("relative-change"),
+      {.bounds = volume_preset},
+      true}},
 };
-
-template <class Table>
-const auto& find(const Table& table, std::string_view name, const char* kind) {
-  std::string known;
-  for (const auto& entry : table) {
-    if (entry.name == name) return entry;
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  throw UsageError("unknown " + std::string(kind) + " '" + std::string(name) + "'; there are: " + known);
-}
 
 }  // namespace
 
@@ -216,19 +250,18 @@ std::span<const Estimator> estimators() { return estimator_table; }
 std::span<const Metric> metrics() { return metric_table; }
 std::span<const Method> methods() { return method_table; }
 
-Method find_method(std::string_view name) { return find(method_table, name, "method"); }
-const Estimator& find_estimator(std::string_view name) { return find(estimator_table, name, "estimator"); }
+Method find_method(std::string_view name) { return find_row(method_table, name, "method"); }
+const Estimator& find_estimator(std::string_view name) { return find_row(estimator_table, name, "estimator"); }
 const RadianceEstimator& find_radiance_estimator(std::string_view name) {
-  return find(radiance_table, name, "estimator of radiance");
+  return find_row(radiance_table, name, "estimator of radiance");
 }
-const Metric& find_metric(std::string_view name) { return find(metric_table, name, "metric"); }
+const Metric& find_metric(std::string_view name) { return find_row(metric_table, name, "metric"); }
 
-float threshold(const Metric& metric, double error) {
-  return std::min(greatest_threshold, metric.a_factor * std::pow(static_cast<float>(error), metric.a_power));
-}
+float threshold(const Metric& metric, double error) { return threshold_of(metric, error); }
 
 void check_combination(const Method& method) {
   if (!method.caches()) return;
+  if (method.volume.caches()) check_combination(method.volume);
   const auto pair = [&] {
     return "metric '" + std::string(method.metric->name) + "' and estimator '" + std::string(method.estimator->name) +
            "': ";

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "isophote/derivatives/gather.h"
+#include "isophote/derivatives/volume_radiance.h"
 #include "isophote/validity/neighbour_index.h"
 #include "isophote/validity/predicted_error.h"
 #include "isophote/validity/radius_bounds.h"
@@ -54,6 +55,28 @@ struct Metric {
                           const MetricSettings&) = nullptr;
 };
 
+/// An estimator of the radiance that arrives in media.
+struct VolumeEstimator {
+  std::string_view name{}, paper{}, gives{};
+  int order = 0;                ///< 1: the gradient; 2: and the Hessian
+  bool sums = false;            ///< and the magnitudes of the samples' gradients: VolumeJet::gradient_sum
+  bool sees_occluders = false;  ///< and its gradient holds what moves behind their edges
+  VolumeJet (*estimate)(const SphereGather&, VolumePart, int bands) = nullptr;
+};
+
+/// A metric of such records.
+struct VolumeMetric {
+  std::string_view name{}, paper{};
+  bool bounded = false;             ///< heeds MetricSettings::bounds but
+  bool by_gradient = false;         ///< that by the gradient, which it takes where the estimator sees occluders
+  bool elliptical = false;          ///< heeds MetricSettings::aspect, of ellipsoids
+  bool needs_sums = false;          ///< of the estimator
+  int needs = 0;                    ///< order of the estimator at least
+  float a_factor = 1, a_power = 1;  ///< as Metric's
+  Footprint (*measure)(const VolumeJet&, const View&, const MetricSettings&) = nullptr;
+  float (*scale)(const MetricSettings&) = nullptr;  ///< as Metric's
+};
+
 /// What gather rays read where they hit.
 enum class Secondary : std::uint8_t {
   off,        ///< nothing: paths go on
@@ -87,6 +110,23 @@ struct GlossyMethod {
   bool caches() const { return from != Glossy::rays; }
 };
 
+/// What media take the light from that they scatter, but for that of emitters which are sampled directly.
+enum class InScattering : std::uint8_t {
+  paths,  ///< a path from each place that is looked at
+  cache,  ///< records of the radiance that arrives
+};
+
+/// How radiance in media is cached.
+struct VolumeMethod {
+  InScattering from = InScattering::paths;
+  const VolumeEstimator* estimator = nullptr;
+  const VolumeMetric* metric = nullptr;
+  MetricSettings settings{};
+  bool logarithmic = false;  ///< are records interpolated in logarithms? (Footprint)
+
+  bool caches() const { return from != InScattering::paths; }
+};
+
 /// A named combination. `estimator` is null for the path-traced reference, which caches nothing.
 struct Method {
   std::string name;
@@ -100,6 +140,7 @@ struct Method {
   bool leak_test = false;  ///< a record keeps what it saw near: see `serving_error`
   bool regress = false;    ///< records are fitted to their neighbours at the end: regression.h
   GlossyMethod glossy{};
+  VolumeMethod volume{};
 
   bool caches() const { return estimator != nullptr; }
   /// The mean relative error that the threshold aims at; and the standard error of a record, relative to its value,
@@ -113,6 +154,10 @@ struct Method {
   /// A record of incident radiance in so many bands, by the glossy method.
   RadianceRecord make_radiance_record(const HemisphereGather& gather, int bands, const View& view) const;
   void settle(const SettlingOf<RadianceRecord>& settling, std::span<const std::uint32_t> fresh) const;
+  /// A record of radiance in media, which hold it as their bits say, by the volume method.
+  VolumeRecord make_volume_record(const SphereGather& gather, VolumePart part, std::uint32_t media, int bands,
+                                  const View& view) const;
+  void settle(const SettlingOf<VolumeRecord>& settling, std::span<const std::uint32_t> fresh) const;
   /// What `predicted_error` wants to know of records made by this method.
   ErrorModel error_model() const;
 };
@@ -120,10 +165,13 @@ struct Method {
 std::string_view name_of(Secondary secondary);
 std::string_view name_of(Glossy glossy);
 std::string_view name_of(Basis basis);
+std::string_view name_of(InScattering from);
 
 std::span<const Estimator> estimators();
 std::span<const RadianceEstimator> radiance_estimators();
 std::span<const Metric> metrics();
+std::span<const VolumeEstimator> volume_estimators();
+std::span<const VolumeMetric> volume_metrics();
 std::span<const Method> methods();
 
 /// Throw UsageError with the known names where there is none of this name.
@@ -131,15 +179,19 @@ Method find_method(std::string_view name);
 const Estimator& find_estimator(std::string_view name);
 const RadianceEstimator& find_radiance_estimator(std::string_view name);
 const Metric& find_metric(std::string_view name);
+const VolumeEstimator& find_volume_estimator(std::string_view name);
+const VolumeMetric& find_volume_metric(std::string_view name);
 
 /// Thresholds lie between these: with a greater one, a footprint would be larger than the distances it was derived
 /// from.
 inline constexpr float least_threshold = 1e-6f, greatest_threshold = 1;
 /// The threshold by which a metric aims at a wanted mean relative error.
 float threshold(const Metric& metric, double error);
+float threshold(const VolumeMetric& metric, double error);
 
 /// Throws UsageError, naming both sides, where the metric or its bounds need what the estimator does not give, or where
 /// bounds or an aspect are set that the metric does not heed. Called before any ray is shot.
 void check_combination(const Method& method);
+void check_combination(const VolumeMethod& method);
 
 }  // namespace isophote

@@ -41,7 +41,9 @@ Standing standing(const Record& record, const Query& query, OpenTest open) {
 }
 
 float falloff_weight(Falloff falloff, float error) {
-  return falloff == Falloff::ward ? 1 / std::max(error, 1e-6f) - 1 : 1 - error;
+  if (falloff == Falloff::ward) return 1 / std::max(error, 1e-6f) - 1;
+  const float inwards = 1 - error;
+  return falloff == Falloff::smooth ? inwards * inwards * (3 - 2 * inwards) : inwards;
 }
 
 std::optional<Rgb> RecordCache::interpolate(const Query& query, OpenTest open) const {

@@ -21,27 +21,29 @@ struct Query {
   Vec3 facing;
 };
 
-/// The host's test for what stands between a record and a query: refers to a callable bool(const Site&, const
-/// Query&), true where the way between them is free, that outlives the lookup. Asked only where the record saw
-/// something that near. An empty one takes every way to be free.
-class OpenTest {
+/// The host's test for what stands between a record and a query: refers to a callable bool(const Site&, const Q&), true
+/// where the way between them is free, that outlives the lookup. Asked only where the record saw something that near.
+/// An empty one takes every way to be free.
+template <class Q>
+class OpenTestOf {
  public:
-  OpenTest() = default;
+  OpenTestOf() = default;
   template <class Test>
-  OpenTest(const Test& test)
-      : test_(&test), call_([](const void* t, const Site& r, const Query& q) -> bool {
-          return (*static_cast<const Test*>(t))(r, q);
-        }) {}
+  OpenTestOf(const Test& test)
+      : test_(&test),
+        call_([](const void* t, const Site& r, const Q& q) -> bool { return (*static_cast<const Test*>(t))(r, q); }) {}
 
-  bool operator()(const Site& record, const Query& query) const { return !call_ || call_(test_, record, query); }
+  bool operator()(const Site& record, const Q& query) const { return !call_ || call_(test_, record, query); }
 
  private:
   const void* test_ = nullptr;
-  bool (*call_)(const void*, const Site&, const Query&) = nullptr;
+  bool (*call_)(const void*, const Site&, const Q&) = nullptr;
 };
+using OpenTest = OpenTestOf<Query>;
 
-/// Records and the index that finds them. Reading is safe from any number of threads while nobody writes.
-template <class R>
+/// Records and the index that finds them for queries `Q`, which have a `position`. Which of them serve is said by
+/// serving_error(record, query, open). Reading is safe from any number of threads while nobody writes.
+template <class R, class Q = Query>
 class RecordStore {
  public:
   explicit RecordStore(const Box& bounds) : bounds_(bounds), octree_(bounds), neighbours_(bounds) {}
@@ -64,7 +66,7 @@ class RecordStore {
   /// Calls visit(id, error, weight) for all records that serve the query, in an order fixed by the insertions: `error`
   /// as the footprint measures it, `weight` not yet over the sum of all.
   template <class Visit>
-  void visit_serving(const Query& query, OpenTest open, Visit&& visit) const;
+  void visit_serving(const Q& query, OpenTestOf<Q> open, Visit&& visit) const;
 
   /// Calls visit(record) for all records whose footprint may reach `p`, and for some others near it.
   template <class Visit>
@@ -75,7 +77,7 @@ class RecordStore {
  protected:
   /// Does any record serve of which test(record) holds?
   template <class Test>
-  bool any_serving(const Query& query, OpenTest open, Test&& test) const;
+  bool any_serving(const Q& query, OpenTestOf<Q> open, Test&& test) const;
 
  private:
   Box bounds_;
@@ -85,9 +87,10 @@ class RecordStore {
 };
 
 class RadianceCache;
+struct VolumeCaches;
 
 /// What is known of the light in a scene: irradiance by records, what gathers have left where their rays hit, and, if
-/// that is cached at all, incident radiance.
+/// those are cached at all, incident radiance and radiance in media.
 class RecordCache : public RecordStore<Record> {
  public:
   explicit RecordCache(const Box& bounds) : RecordStore(bounds), cells_(bounds) {}
@@ -97,6 +100,9 @@ class RecordCache : public RecordStore<Record> {
   /// Null where none is cached. Copies of this cache share it.
   const std::shared_ptr<RadianceCache>& radiance() const { return radiance_; }
   void set_radiance(std::shared_ptr<RadianceCache> radiance) { radiance_ = std::move(radiance); }
+  /// Likewise.
+  const std::shared_ptr<VolumeCaches>& volumes() const { return volumes_; }
+  void set_volumes(std::shared_ptr<VolumeCaches> volumes) { volumes_ = std::move(volumes); }
 
   /// Irradiance at the query, interpolated among the records that serve it: sum of weight times extrapolated value over
   /// sum of weights [Ward, Heckbert 1992], in the order of `visit_serving`. Nothing where no record serves.
@@ -109,6 +115,7 @@ class RecordCache : public RecordStore<Record> {
  private:
   IrradianceCells cells_;
   std::shared_ptr<RadianceCache> radiance_;
+  std::shared_ptr<VolumeCaches> volumes_;
 };
 
 /// The error of using `record` at (position, normal), as its footprint measures it: under 1 inside. Infinite where the
@@ -141,24 +148,24 @@ float serving_error(const R& record, const Query& query, OpenTest open) {
   return unsure && !open(record, query) ? std::numeric_limits<float>::infinity() : error;
 }
 
-template <class R>
-std::uint32_t RecordStore<R>::insert(R record) {
+template <class R, class Q>
+std::uint32_t RecordStore<R, Q>::insert(R record) {
   const auto id = static_cast<std::uint32_t>(records_.size());
   octree_.insert(id, record.position, record.footprint.radius);
   records_.push_back(std::move(record));
   return id;
 }
 
-template <class R>
-void RecordStore<R>::reindex() {
+template <class R, class Q>
+void RecordStore<R, Q>::reindex() {
   octree_ = Octree(bounds_);
   for (std::uint32_t id = 0; id < records_.size(); ++id)
     octree_.insert(id, records_[id].position, records_[id].footprint.radius);
 }
 
-template <class R>
+template <class R, class Q>
 template <class Visit>
-void RecordStore<R>::visit_serving(const Query& query, OpenTest open, Visit&& visit) const {
+void RecordStore<R, Q>::visit_serving(const Q& query, OpenTestOf<Q> open, Visit&& visit) const {
   octree_.any(query.position, [&](std::uint32_t id) {
     const R& record = records_[id];
     const float error = serving_error(record, query, open);
@@ -167,9 +174,9 @@ void RecordStore<R>::visit_serving(const Query& query, OpenTest open, Visit&& vi
   });
 }
 
-template <class R>
+template <class R, class Q>
 template <class Test>
-bool RecordStore<R>::any_serving(const Query& query, OpenTest open, Test&& test) const {
+bool RecordStore<R, Q>::any_serving(const Q& query, OpenTestOf<Q> open, Test&& test) const {
   return octree_.any(query.position, [&](std::uint32_t id) {
     return test(records_[id]) && serving_error(records_[id], query, open) < 1;
   });

@@ -1,14 +1,15 @@
 #include "isophote/cache/record_file.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 
-#include "isophote/cache/radiance_cache.h"
 #include "isophote/cache/record_transfer.h"
 #include "isophote/cache/usable_record.h"
+#include "isophote/cache/volume_cache.h"
 #include "isophote/core/atomic_file.h"
 #include "isophote/core/error.h"
 #include "isophote/core/hash.h"
@@ -18,7 +19,7 @@ namespace isophote {
 namespace {
 
 constexpr char magic[8] = {'I', 'S', 'O', 'P', 'H', 'R', 'E', 'C'};
-constexpr std::uint32_t version = 6;
+constexpr std::uint32_t version = 7;
 
 using namespace record_transfer;
 
@@ -29,17 +30,31 @@ std::size_t record_size() {
   return packer.bytes.size();
 }
 
-void pack(Packer& out, RadianceRecord& record) {
-  auto bands = static_cast<std::uint8_t>(RadianceCache::bands(record));
-  std::uint8_t has_gradient = !record.jet.translational.x.empty();
+/// Of radiance, at surfaces or in media.
+template <class R>
+void pack(Packer& out, R& record) {
+  auto bands = static_cast<std::uint8_t>(std::lround(std::sqrt(static_cast<float>(record.jet.value.size()))));
+  bool has_gradient = !record.jet.translational.x.empty();
   transfer_head(out, record, bands, has_gradient);
   transfer_rest(out, record);
 }
-std::size_t radiance_record_size(RadianceRecord record) {
+template <class R>
+void pack_all(Packer& out, const std::vector<R>& records) {
+  out.integer(records.size(), 8);
+  for (R record : records) pack(out, record);
+}
+template <class R>
+std::size_t packed_size(R record) {
   Packer packer;
   pack(packer, record);
   return packer.bytes.size();
 }
+
+/// How a message calls them.
+constexpr const char* kind(const RadianceRecord&) { return "radiance"; }
+constexpr const char* kind(const VolumeRecord&) { return "media"; }
+constexpr int most_bands(const RadianceRecord&) { return most_order; }
+constexpr int most_bands(const VolumeRecord&) { return most_volume_bands; }
 
 /// Of bytes that come piece by piece.
 struct Checksum {
@@ -52,7 +67,7 @@ struct Checksum {
 
 constexpr std::size_t head_size = sizeof magic + 4 + 8 + 4;
 
-constexpr std::size_t checksum_size = 8, radiance_head_size = 9;
+constexpr std::size_t checksum_size = 8, count_size = 8, basis_size = 1;
 
 /// Takes a file apart from its start, so that what it claims is known to be true before it is kept: no more memory is
 /// used than sound records fill.
@@ -78,7 +93,13 @@ class Reader {
     if (static_cast<unsigned char>(pilot_bytes[0]) > 1 || !usable(file.pilot)) fail("its survey is malformed");
     if (!(file.threshold > 0 && file.threshold <= 1)) fail("its threshold is malformed");
     read_irradiance(file);
-    read_radiance(file);
+    take_in(basis_size, [&](Unpacker& in) {
+      const std::uint64_t basis = in.integer(basis_size);
+      if (basis > static_cast<std::uint64_t>(Basis::hemispherical)) fail("its basis is malformed");
+      file.basis = static_cast<Basis>(basis);
+    });
+    read_radiance(file.radiance);
+    for (std::vector<VolumeRecord>& each : file.volumes) read_radiance(each);
     if (left() != checksum_size) fail("is malformed (it is longer than its records)");
     const std::uint64_t sum = checksum_.sum;
     const std::string sum_bytes = take(8);
@@ -99,44 +120,48 @@ class Reader {
   /// Bytes that are still to come.
   std::uint64_t left() const { return size_ - checksum_.count; }
 
+  /// Was that well formed?
   template <class Transfer>
-  void take_in(std::uint64_t count, const Transfer& transfer) {
+  bool take_in(std::uint64_t count, const Transfer& transfer) {
     if (count + checksum_size > left()) fail("is cut off or malformed (a record is)");
     const std::string bytes = take(count);
     Unpacker in{bytes.data()};
     transfer(in);
+    return !in.malformed;
+  }
+
+  /// Of records that take `each` bytes at least.
+  std::uint64_t take_count(std::uint64_t each) {
+    std::uint64_t count = 0;
+    take_in(count_size, [&](Unpacker& in) { count = in.integer(count_size); });
+    if (count > left() / each) fail("is cut off or malformed (its count of records is wrong)");
+    return count;
   }
 
   void read_irradiance(RecordFile& file) {
-    std::uint64_t count = 0;
-    take_in(8, [&](Unpacker& in) { count = in.integer(8); });
-    const std::uint64_t each = record_size();
-    if (count > left() / each) fail("is cut off or malformed (its count of records is wrong)");
+    const std::uint64_t each = record_size(), count = take_count(each);
     for (std::uint64_t i = 0; i < count; ++i) {
       Record& record = file.records.emplace_back();
-      take_in(each, [&](Unpacker& in) { transfer(in, record); });
-      if (!usable(record)) fail("record " + std::to_string(i) + " is malformed");
+      const bool formed = take_in(each, [&](Unpacker& in) { transfer(in, record); });
+      if (!formed || !usable(record)) fail("record " + std::to_string(i) + " is malformed");
     }
   }
 
-  void read_radiance(RecordFile& file) {
-    std::uint64_t basis = 0, count = 0;
-    take_in(radiance_head_size, [&](Unpacker& in) { basis = in.integer(1), count = in.integer(8); });
-    if (basis > static_cast<std::uint64_t>(Basis::hemispherical)) fail("its basis is malformed");
-    file.basis = static_cast<Basis>(basis);
-    const std::uint64_t head = radiance_record_size({});
-    if (count > left() / head) fail("is cut off or malformed (its count of records is wrong)");
+  template <class R>
+  void read_radiance(std::vector<R>& records) {
+    const std::uint64_t head = packed_size(R{}), count = take_count(head);
     for (std::uint64_t i = 0; i < count; ++i) {
-      RadianceRecord& record = file.radiance.emplace_back();
-      std::uint8_t bands = 0, has_gradient = 0;
-      take_in(head, [&](Unpacker& in) { transfer_head(in, record, bands, has_gradient); });
-      const bool sized = bands > 0 && bands <= most_order && has_gradient <= 1;
+      R& record = records.emplace_back();
+      std::uint8_t bands = 0;
+      bool has_gradient = false;
+      const bool formed = take_in(head, [&](Unpacker& in) { transfer_head(in, record, bands, has_gradient); });
+      const bool sized = formed && bands > 0 && bands <= most_bands(record);
       if (sized) {
-        record.jet.value.resize(harmonics_count(bands));
-        if (has_gradient) record.jet.translational.x = record.jet.translational.y = record.jet.value;
-        take_in(radiance_record_size(record) - head, [&](Unpacker& in) { transfer_rest(in, record); });
+        for (Coefficients* all : coefficients(record))
+          if (has_gradient || all == &record.jet.value) all->resize(harmonics_count(bands));
+        take_in(packed_size(record) - head, [&](Unpacker& in) { transfer_rest(in, record); });
       }
-      if (!sized || !usable(record)) fail("record " + std::to_string(i) + " of radiance is malformed");
+      if (!sized || !usable(record)) fail("record " + std::to_string(i) + " of " + kind(record) + " is malformed");
     }
   }
 
@@ -144,7 +169,8 @@ class Reader {
   std::uint64_t read_head(RecordFile& file) {
     if (size_ < sizeof magic || take(sizeof magic) != std::string_view(magic, sizeof magic))
       fail("is not a record file");
-    if (size_ < head_size + pilot_size + 16 + radiance_head_size) fail("is cut off");
+    constexpr std::size_t counts = 4 * count_size;  // of records of each kind, of which there may be none
+    if (size_ < head_size + pilot_size + counts + basis_size + checksum_size) fail("is cut off");
     const std::string rest = take(head_size - sizeof magic);
     Unpacker in{rest.data()};
     if (const auto found = in.integer(4); found != version)
@@ -152,7 +178,7 @@ class Reader {
     file.scene = in.integer(8);
     const std::uint64_t settings_size = in.integer(4);
     constexpr std::uint64_t largest = 1 << 20;  // settings are a page
-    if (settings_size > largest || settings_size > size_ - head_size - pilot_size - 16)
+    if (settings_size > largest || settings_size > size_ - head_size - pilot_size - checksum_size)
       fail("is cut off or malformed (its settings are too long)");
     return settings_size;
   }
@@ -178,8 +204,8 @@ void write_records(const std::string& path, const RecordFile& file) {
   out.integer(file.records.size(), 8);
   for (Record record : file.records) transfer(out, record);
   out.integer(static_cast<std::uint64_t>(file.basis), 1);
-  out.integer(file.radiance.size(), 8);
-  for (RadianceRecord record : file.radiance) pack(out, record);
+  pack_all(out, file.radiance);
+  for (const std::vector<VolumeRecord>& each : file.volumes) pack_all(out, each);
   Checksum checksum;
   checksum.add(out.bytes);
   out.integer(checksum.sum, 8);

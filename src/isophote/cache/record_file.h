@@ -1,10 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "isophote/validity/record.h"
+#include "isophote/validity/volume_record.h"
 
 namespace isophote {
 
@@ -17,6 +18,7 @@ struct RecordFile {
   std::vector<Record> records;
   Basis basis = Basis::hemispherical;  ///< of the radiance
   std::vector<RadianceRecord> radiance{};
+  std::array<std::vector<VolumeRecord>, 2> volumes{};  ///< by VolumePart
 };
 
 /// Writes a versioned, little-endian, checksummed file, complete or not at all. Throws UserError.

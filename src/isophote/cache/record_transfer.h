@@ -1,11 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <string>
 
-#include "isophote/validity/record.h"
+#include "isophote/validity/volume_record.h"
 
 /// What of a record is on file, and in which order: each said once, for both ways.
 namespace isophote::record_transfer {
@@ -21,11 +22,13 @@ struct Packer {
   void operator()(std::uint32_t& v) { integer(v, 4); }
   void operator()(std::uint16_t& v) { integer(v, 2); }
   void operator()(std::uint8_t& v) { integer(v, 1); }
+  void operator()(bool& v) { integer(v, 1); }
 };
 
 /// And takes them out; the caller has made sure that there are enough.
 struct Unpacker {
   const char* at;
+  bool malformed = false;  ///< there was something that no writer puts there
 
   std::uint64_t integer(int size) {
     std::uint64_t v = 0;
@@ -36,6 +39,11 @@ struct Unpacker {
   void operator()(std::uint32_t& v) { v = static_cast<std::uint32_t>(integer(4)); }
   void operator()(std::uint16_t& v) { v = static_cast<std::uint16_t>(integer(2)); }
   void operator()(std::uint8_t& v) { v = static_cast<std::uint8_t>(integer(1)); }
+  void operator()(bool& v) {
+    const std::uint64_t bit = integer(1);
+    malformed = malformed || bit > 1;
+    v = bit != 0;
+  }
 };
 
 template <class Stream>
@@ -70,7 +78,7 @@ void transfer(Stream& io, Site& s) {
   transfer(io, s.position), transfer(io, s.normal);
   transfer(io, f.shape);
   io(f.normal_scale), io(f.radius), io(f.unscaled), io(f.smallest), io(f.largest);
-  io(falloff), io(f.order);
+  io(falloff), io(f.order), io(f.logarithmic);
   f.falloff = static_cast<Falloff>(falloff);
   io(s.gradient_scale);
 }
@@ -85,19 +93,36 @@ void transfer(Stream& io, Record& r) {
   transfer(io, r.jet.distances);
 }
 
-/// The part of a record of incident radiance whose size does not depend on its bands; these, and whether there is a
-/// gradient, are said by its end.
+/// The coefficients that a record of radiance has, of its value and then of its gradient, where it has one.
+inline std::array<Coefficients*, 3> coefficients(RadianceRecord& r) {
+  return {&r.jet.value, &r.jet.translational.x, &r.jet.translational.y};
+}
+inline std::array<Coefficients*, 4> coefficients(VolumeRecord& r) {
+  return {&r.jet.value, &r.jet.translational.x, &r.jet.translational.y, &r.jet.translational.z};
+}
+
+/// The part of such a record whose size does not depend on its bands; these, and whether there is a gradient, are said
+/// by its end.
 template <class Stream>
-void transfer_head(Stream& io, RadianceRecord& r, std::uint8_t& bands, std::uint8_t& has_gradient) {
+void transfer_head(Stream& io, RadianceRecord& r, std::uint8_t& bands, bool& has_gradient) {
   transfer(io, static_cast<Site&>(r));
   io(r.jet.rays);
   transfer(io, r.jet.distances);
   io(bands), io(has_gradient);
 }
-/// And the rest; the vectors have their sizes already.
 template <class Stream>
-void transfer_rest(Stream& io, RadianceRecord& r) {
-  for (Coefficients* all : {&r.jet.value, &r.jet.translational.x, &r.jet.translational.y})
+void transfer_head(Stream& io, VolumeRecord& r, std::uint8_t& bands, bool& has_gradient) {
+  transfer(io, static_cast<Site&>(r));
+  io(r.media), io(r.jet.rays);
+  io(r.jet.standard_error), io(r.jet.gradient_error);
+  transfer(io, r.jet.hessian);
+  io(r.jet.value_sum), io(r.jet.gradient_sum), io(r.jet.nearest), io(r.jet.distances.harmonic_mean);
+  io(bands), io(has_gradient);
+}
+/// And the rest; the vectors have their sizes already.
+template <class Stream, class R>
+void transfer_rest(Stream& io, R& r) {
+  for (Coefficients* all : coefficients(r))
     for (Rgb& c : *all) transfer(io, c);
 }
 

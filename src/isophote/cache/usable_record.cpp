@@ -55,11 +55,14 @@ bool curved(const Record& r) {
 bool usable(const Site& s) {
   const Footprint& f = s.footprint;
   constexpr float most = std::numeric_limits<float>::max();
-  const bool placed = is_finite(s.position) && std::abs(length(s.normal) - 1) < 1e-3f;
   const bool sized = within(f.normal_scale, 0, most) && within(f.unscaled, 0, most) &&
                      within(f.smallest, 0, f.radius) && f.largest >= f.radius;
-  return placed && shaped(f) && sized && static_cast<int>(f.falloff) <= static_cast<int>(Falloff::tabellion) &&
-         f.order <= 2 && within(s.gradient_scale, 0, 1);
+  return is_finite(s.position) && shaped(f) && sized &&
+         static_cast<int>(f.falloff) <= static_cast<int>(Falloff::smooth) && f.order <= 2 &&
+         within(s.gradient_scale, 0, 1);
+}
+bool usable_on_surface(const Site& s) {
+  return usable(s) && std::abs(length(s.normal) - 1) < 1e-3f && !s.footprint.logarithmic;
 }
 
 bool bounded(const Coefficients& all, float scale) {
@@ -72,13 +75,27 @@ bool bounded(const Coefficients& all, float scale) {
 }  // namespace
 
 bool usable(const Record& r) {
-  return usable(static_cast<const Site&>(r)) && within(r.jet.standard_error, 0, std::numeric_limits<float>::max()) &&
+  return usable_on_surface(r) && within(r.jet.standard_error, 0, std::numeric_limits<float>::max()) &&
          bounded(r.jet, r.footprint.radius) && curved(r);
 }
 
 bool usable(const RadianceRecord& r) {
-  return usable(static_cast<const Site&>(r)) && sound(r.jet.distances) && bounded(r.jet.value, 1) &&
+  return usable_on_surface(r) && sound(r.jet.distances) && bounded(r.jet.value, 1) &&
          bounded(r.jet.translational.x, r.footprint.radius) && bounded(r.jet.translational.y, r.footprint.radius);
+}
+
+bool usable(const VolumeRecord& r) {
+  constexpr float most = std::numeric_limits<float>::max();
+  const VolumeJet& jet = r.jet;
+  const Gradient<Coefficients>& g = jet.translational;
+  const float radius = r.footprint.radius;
+  if (!(usable(static_cast<const Site&>(r)) && r.normal == Vec3{} && r.footprint.order < 2)) return false;
+  const bool summed = within(jet.standard_error, 0, most) && within(jet.gradient_error, 0, infinity) &&
+                      within(jet.value_sum, 0, most) && within(jet.gradient_sum, 0, most) &&
+                      within(jet.nearest, 0, infinity) && within(jet.distances.harmonic_mean, 0, infinity);
+  const Rgb& mean = jet.value[0];
+  return summed && std::isfinite(norm(Sym3d(jet.hessian))) && mean.r >= 0 && mean.g >= 0 && mean.b >= 0 &&
+         bounded(jet.value, 1) && bounded(g.x, radius) && bounded(g.y, radius) && bounded(g.z, radius);
 }
 
 bool usable(const Pilot& p) {

@@ -15,6 +15,15 @@ struct Sym3T {
   static constexpr Sym3T outer(const Vec3T<T>& v, T s) {
     return {s * v.x * v.x, s * v.x * v.y, s * v.x * v.z, s * v.y * v.y, s * v.y * v.z, s * v.z * v.z};
   }
+  /// The identity but for the direction of the unit vector w.
+  static constexpr Sym3T across(const Vec3T<T>& w) {
+    return {1 - w.x * w.x, -w.x * w.y, -w.x * w.z, 1 - w.y * w.y, -w.y * w.z, 1 - w.z * w.z};
+  }
+  /// s (u v^T + v u^T)
+  static constexpr Sym3T symmetric_outer(const Vec3T<T>& u, const Vec3T<T>& v, T s) {
+    return {2 * s * u.x * v.x, s * (u.x * v.y + u.y * v.x), s * (u.x * v.z + u.z * v.x),
+            2 * s * u.y * v.y, s * (u.y * v.z + u.z * v.y), 2 * s * u.z * v.z};
+  }
 
   Sym3T() = default;
   constexpr Sym3T(T xx_, T xy_, T xz_, T yy_, T yz_, T zz_) : xx(xx_), xy(xy_), xz(xz_), yy(yy_), yz(yz_), zz(zz_) {}
@@ -26,6 +35,7 @@ struct Sym3T {
   constexpr Sym3T operator+(const Sym3T& o) const {
     return {xx + o.xx, xy + o.xy, xz + o.xz, yy + o.yy, yz + o.yz, zz + o.zz};
   }
+  constexpr Sym3T& operator+=(const Sym3T& o) { return *this = *this + o; }
   constexpr Sym3T operator*(T s) const { return {xx * s, xy * s, xz * s, yy * s, yz * s, zz * s}; }
   constexpr bool operator==(const Sym3T&) const = default;
 };

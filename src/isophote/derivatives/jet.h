@@ -3,22 +3,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "isophote/core/gradient.h"
 #include "isophote/core/rgb.h"
 #include "isophote/core/sym3.h"
 #include "isophote/core/vec.h"
 #include "isophote/derivatives/obstacles.h"
 
 namespace isophote {
-
-/// The partial derivatives of a value along x, y and z of world space.
-template <class V>
-struct Gradient {
-  V x{}, y{}, z{};
-
-  /// The change of the value along a small displacement or rotation vector.
-  V dot(const Vec3& d) const { return x * d.x + y * d.y + z * d.z; }
-  bool operator==(const Gradient&) const = default;
-};
 
 /// How far the surfaces are that a record sees.
 struct DistanceStats {

@@ -38,28 +38,8 @@ Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeight
 
 namespace {
 
-/// Inverse distance, in the direction `w`, of the tangent plane of a sample.
-float inverse_along(const GatherSample& s, const Vec3& w) {
-  return dot(s.normal, w) / (dot(s.normal, s.direction) * s.distance);
-}
-
-/// Do two neighbours lie on one surface, or on two that meet at the wall between them: are their tangent planes about
-/// equally far there? (Whether they belong to one mesh does not matter: depth is continuous where walls meet.)
-bool one_surface(const GatherSample& p, const GatherSample& q) {
-  constexpr float tolerance = 1.3f;
-  if (p.distance == infinity || q.distance == infinity) return false;
-  const Vec3 wall = normalize(p.direction + q.direction);
-  const float a = inverse_along(p, wall), b = inverse_along(q, wall);
-  return a > 0 && b > 0 && a < tolerance * b && b < tolerance * a;
-}
-
-float inverse_distance(const GatherSample& p, const GatherSample& q, WallDistance distance) {
-  const float a = 1 / p.distance, b = 1 / q.distance;
-  return distance == WallDistance::harmonic && one_surface(p, q) ? (a + b) / 2 : std::max(a, b);
-}
-
 Rgbd step(const GatherSample& from, const GatherSample& to, WallDistance distance) {
-  return wall_step(from, to, inverse_distance(from, to, distance));
+  return wall_step(from, to, inverse_wall_distance(from, to, distance));
 }
 
 Gradient<Rgb> translational_gradient(const HemisphereGather& gather, WallDistance distance) {

@@ -2,6 +2,7 @@
 
 #include "isophote/derivatives/gather.h"
 #include "isophote/derivatives/jet.h"
+#include "isophote/derivatives/wall_distance.h"
 
 namespace isophote {
 
@@ -14,11 +15,6 @@ enum class RotationWeights { classical, exact };
 
 /// The rotational gradient alone, which needs no distances.
 Gradient<Rgb> rotational_gradient(const HemisphereGather& gather, RotationWeights weights);
-
-/// How far the wall between two strata is: `minimum` is the nearer of its two samples, as published; `harmonic` is
-/// their harmonic mean where both lie on one surface, which is where the surface is at the wall, and the nearer across
-/// a step.
-enum class WallDistance { minimum, harmonic };
 
 /// Irradiance with the rotational and translational gradients of the stratified hemisphere [Ward, Heckbert 1992]:
 /// radiance steps over the walls between strata.

@@ -68,7 +68,7 @@ void adapt_radii(const Job& job, RadianceCache& cache, int stride, int sample, R
     const int y = stride / 2 + static_cast<int>(row) * stride;
     for (int x = stride / 2; x < job.width; x += stride) {
       Sampler stream = job.sampler(x, y, sample);
-      const FirstPoint seen = first_point(job.world, job.camera_ray(x, y, stream), true, stream, mine.camera);
+      const FirstPoint seen = first_point(job.world.clear(), job.camera_ray(x, y, stream), true, stream, mine.camera);
       if (seen.point) compare_at(job, cache, seen, here, limits[row], mine);
     }
   });

@@ -6,21 +6,17 @@
 
 #include "isophote/cache/radiance_cache.h"
 #include "isophote/integrate/adapt_radii.h"
+#include "isophote/integrate/build_volumes.h"
 #include "isophote/integrate/glossy_rule.h"
 #include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
+#include "isophote/integrate/pick_spread.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/render.h"
 
 namespace isophote {
 namespace {
 
-/// Records in a round: a constant, so that the picture does not depend on the machine. Large enough to keep many
-/// threads busy.
-constexpr std::size_t batch_size = 64;
-/// A round is filled up to this size with points nearer to each other than they should be, rather than leave threads
-/// idle.
-constexpr std::size_t least_batch = 8;
 /// Passes over all pixels, one sample each, end when one finds fewer than this part of them uncovered. Where records
 /// limit their neighbours those few are left so: one there could uncover more, which nobody would look for.
 constexpr double good_coverage = 2e-4;
@@ -43,7 +39,7 @@ struct Candidate {
 
 class Builder {
  public:
-  Builder(const Job& job, RecordCache& cache) : job_(job), cache_(cache) {}
+  Builder(const Job& job, RecordCache& cache) : job_(job), cache_(cache), volumes_(job_, cache) {}
 
   BuildReport run() {
     job_.progress.tell("build", 0);
@@ -56,6 +52,7 @@ class Builder {
       if (!ready_to_survey(candidates)) continue;
       begin_with_survey(candidates);
       cover(std::move(candidates));
+      volumes_.cover(stride, 0, report_.rays);
       adapt(stride, 0);
       if (job_.progress.preview) job_.progress.preview(coarse_picture(job_, cache_, stride));
     }
@@ -65,13 +62,16 @@ class Builder {
       std::vector<Candidate> left = uncovered(1, pass % job_.samples);
       begin_with_survey(left);
       ++report_.passes;
-      const bool last = static_cast<double>(left.size()) < good_coverage * pixels;
+      const std::size_t in_media = volumes_.cover(1, pass % job_.samples, report_.rays);
+      const bool last = static_cast<double>(left.size() + in_media) < good_coverage * pixels;
       if (!last || !shrinks_others()) cover(std::move(left));
       if (last) break;
       if (pass + 1 < most_passes) adapt(1, pass % job_.samples);
     }
     cache_.reindex();
     if (cache_.radiance()) cache_.radiance()->reindex();
+    volumes_.finish();
+    report_.rounds += volumes_.rounds();
     report_.pilot = job_.pilot;
     job_.progress.tell("build", 1);
     return report_;
@@ -107,7 +107,7 @@ class Builder {
   }
   /// What a glossy surface shows: there the final pass reads the cache too.
   FirstPoint reflected(const FirstPoint& seen, Sampler& stream, RayCounts& counts) const {
-    FirstPoint next = glossy_ray(job_.world, *seen.point, -seen.direction, stream, counts).next;
+    FirstPoint next = glossy_ray(job_.world.clear(), *seen.point, -seen.direction, stream, counts).next;
     next.path_length += seen.path_length;
     next.depth += seen.depth + 1;
     return next;
@@ -122,7 +122,8 @@ class Builder {
       for (std::size_t column = 0; column < columns; ++column) {
         const int x = stride / 2 + static_cast<int>(column) * stride, y = stride / 2 + static_cast<int>(row) * stride;
         Sampler stream = job_.sampler(x, y, sample);
-        const FirstPoint seen = first_point(job_.world, job_.camera_ray(x, y, stream), true, stream, counts.camera);
+        const FirstPoint seen =
+            first_point(job_.world.clear(), job_.camera_ray(x, y, stream), true, stream, counts.camera);
         const std::uint64_t key = hash(job_.seed, x, y, sample);
         add_uncovered(seen, key, found[row], counts);
         if (shines(seen)) add_uncovered(reflected(seen, stream, counts), hash(key), found[row], counts);
@@ -235,30 +236,14 @@ class Builder {
   }
 
   /// The first candidates in order that are not within each other's expected reach; takes them out of the list.
-  std::vector<Place> pick(std::vector<Candidate>& candidates) const {
-    std::vector<Candidate> picked, crowded;
-    std::size_t i = 0, kept = 0;
-    const auto clear = [&](const Candidate& c) {
-      return std::none_of(picked.begin(), picked.end(), [&](const Candidate& p) {
-        const float reach = std::max(p.reach, c.reach);
-        return length_squared(p.place.position - c.place.position) < reach * reach &&
-               dot(p.place.normal, c.place.normal) > 0;
-      });
+  static std::vector<Place> pick(std::vector<Candidate>& candidates) {
+    const auto near = [](const Candidate& a, const Candidate& b) {
+      const float reach = std::max(a.reach, b.reach);
+      return length_squared(a.place.position - b.place.position) < reach * reach &&
+             dot(a.place.normal, b.place.normal) > 0;
     };
-    for (; i < candidates.size() && picked.size() < batch_size; ++i) {
-      if (clear(candidates[i]))
-        picked.push_back(candidates[i]);
-      else
-        candidates[kept++] = candidates[i];
-    }
-    for (; i < candidates.size(); ++i) candidates[kept++] = candidates[i];
-    std::size_t first = 0;
-    while (picked.size() < least_batch && first < kept) picked.push_back(candidates[first++]);
-    candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(kept), candidates.end());
-    candidates.erase(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(first));
     std::vector<Place> places;
-    places.reserve(picked.size());
-    for (const Candidate& c : picked) places.push_back(c.place);
+    for (const Candidate& c : pick_spread(candidates, near)) places.push_back(c.place);
     return places;
   }
 
@@ -279,6 +264,7 @@ class Builder {
   BuildReport report_;
   Job job_;
   RecordCache& cache_;
+  VolumeBuilder volumes_;
   std::vector<IrradianceCells> left_;  // by the gathers of a round
   bool seeded_ = false;                // the cells
   double done_ = 0, share_ = 0;        // of the build: before the present level, and of it
@@ -291,6 +277,7 @@ RecordCache empty_cache(const Job& job) {
   RecordCache cache(bounds);
   const GlossyMethod& glossy = job.method.glossy;
   if (glossy.caches()) cache.set_radiance(std::make_shared<RadianceCache>(bounds, glossy.basis));
+  if (job.method.volume.caches() && job.world.media) cache.set_volumes(std::make_shared<VolumeCaches>(bounds));
   return cache;
 }
 

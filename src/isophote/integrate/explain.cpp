@@ -109,7 +109,7 @@ Explanation explain(const Job& job, const RecordCache& cache, int x, int y, cons
   const FlushDenormals flush;
   Sampler stream = job.sampler(x, y, 0);
   const Ray ray = job.camera_ray(x, y, stream);
-  e.seen = first_point(job.world, ray, true, stream, counts.camera);
+  e.seen = first_point(job.world.clear(), ray, true, stream, counts.camera);
   e.depth = e.seen.first_distance * dot(ray.direction, job.camera.forward);
   e.mean = pixel_radiance(job, cache, x, y);
   e.reads_cache = place_of(job, e.seen).has_value();

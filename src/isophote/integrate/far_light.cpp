@@ -46,6 +46,7 @@ Cell traced(const World& world, const FarLight& from, const SurfacePoint& point,
         shade(world, from, *hit.point, -hit.direction, hit.path_length, depth + 1 + hit.depth, sampler, counts);
     radiance += hit.throughput * (light.direct + light.indirect);
   }
+  if (hit.medium_point) radiance += hit.throughput * path_radiance(world, hit, depth + 1 + hit.depth, sampler, counts);
   sample.nearest = hit.first_distance;
   sample.sum = radiance * (pi / survival);
   return sample;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "isophote/integrate/gather_layers.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {
@@ -10,22 +11,38 @@ namespace {
 
 Rgb scattered_radiance(const World& world, const FarLight& from, const FirstPoint& hit, int depth, Sampler& sampler,
                        RayCounts& counts) {
-  if (from.none()) {
-    const Scattered s = scatter(world, *hit.point, -hit.direction, depth, sampler, counts);
-    return s.direct + s.indirect;
-  }
+  if (from.none() || hit.medium_point) return path_radiance(world, hit, depth, sampler, counts);
   const Shaded s = shade(world, from, *hit.point, -hit.direction, hit.path_length, depth, sampler, counts);
   return s.direct + s.indirect;
 }
 
-GatherSample gather_sample(const World& world, const FarLight& from, const Ray& ray, const Rgb& medium,
-                           Sampler& sampler, RayCounts& counts) {
-  const FirstPoint hit = first_point(world, ray, false, sampler, counts.gather, medium);
+/// What a ray meets, and the radiance of that and of what lies behind in mirrors, but for what media do before it.
+GatherSample meet(const World& world, const FarLight& from, const Ray& ray, const Rgb& medium, Sampler& sampler,
+                  RayCounts& counts) {
+  const FirstPoint hit = first_point(world, ray, false, sampler, counts.gather, medium, FirstSegment::clear);
   GatherSample sample{ray.direction, hit.first_distance, hit.emission, hit.first_normal, hit.first_mesh};
   const int depth = 1 + hit.depth;
-  if (hit.point && depth < world.max_depth)
+  if (hit.scatters() && depth < world.max_depth)
     sample.radiance += hit.throughput * scattered_radiance(world, from, hit, depth, sampler, counts);
   return sample;
+}
+
+/// Shells for any place of the scene.
+Shells shells_of(const World& world, std::uint64_t key) {
+  constexpr int count = 12;
+  constexpr float first = 0.01f;  // of the diagonal
+  const float scale = world.rays.scene_scale();
+  return {count, first * scale, scale, key};
+}
+
+/// What media do along the ray of the i-th sample; what they scatter at the record itself, by the first shell.
+template <class Gather>
+void add_layers(const World& world, const FarLight& from, const Ray& ray, const Shells& shells, int i, Sampler& sampler,
+                RayCounts& counts, Gather& gather) {
+  const auto size = static_cast<std::size_t>(shells.count() + 1), index = static_cast<std::size_t>(i);
+  const auto layers = std::span(gather.layers).subspan(index * size, size);
+  gather_layers(world, from, ray, shells, sampler, counts, gather.samples[index], layers);
+  gather.sources[index] = layers[1].radiance / std::min(shells.ends[0], gather.samples[index].distance);
 }
 
 /// A step that visits all of `size` strata, early ones well spread over the hemisphere: the first rays into a cell
@@ -48,6 +65,11 @@ void gather_hemisphere(const World& world, const FarLight& from, const Place& pl
   surface.position = place.position;
   surface.geometric_normal = place.geometric_normal;
   surface.offset = place.offset;
+  std::optional<Shells> shells;
+  if (world.media) shells = shells_of(world, key);
+  gather.shells = shells ? shells->count() : 0;
+  gather.layers.assign(shells ? gather.samples.size() * static_cast<std::size_t>(shells->count() + 1) : 0, {});
+  gather.sources.assign(shells ? gather.samples.size() : 0, {});
   const int step = well_spread_step(strata.size());
   for (int n = 0, i = 0; n < strata.size(); ++n, i = (i + step) % strata.size()) {
     Sampler sampler(key, static_cast<std::uint32_t>(i));
@@ -59,7 +81,26 @@ void gather_hemisphere(const World& world, const FarLight& from, const Place& pl
       continue;
     }
     const Ray ray{offset_origin(surface, direction), direction};
-    gather.samples[i] = gather_sample(world, from, ray, place.medium, sampler, counts);
+    gather.samples[i] = meet(world, from, ray, place.medium, sampler, counts);
+    if (shells) add_layers(world, from, ray, *shells, i, sampler, counts, gather);
+  }
+}
+
+void gather_sphere(const World& world, const FarLight& from, const Vec3& position, const Rgb& inside,
+                   SphereStrata strata, std::uint64_t key, SphereGather& gather, RayCounts& counts) {
+  gather.position = position;
+  gather.strata = strata;
+  gather.samples.resize(static_cast<std::size_t>(strata.size()));
+  gather.sources.resize(gather.samples.size());
+  const Shells shells = shells_of(world, key);
+  gather.shells = shells.count(), gather.shell_ends = shells.ends;
+  gather.layers.assign(gather.samples.size() * static_cast<std::size_t>(shells.count() + 1), {});
+  const int step = well_spread_step(strata.size());
+  for (int n = 0, i = 0; n < strata.size(); ++n, i = (i + step) % strata.size()) {
+    Sampler sampler(key, static_cast<std::uint32_t>(i));
+    const Ray ray{position, strata.direction(i / strata.azimuthal, i % strata.azimuthal, sampler.next2())};
+    gather.samples[i] = meet(world, from, ray, inside, sampler, counts);
+    add_layers(world, from, ray, shells, i, sampler, counts, gather);
   }
 }
 

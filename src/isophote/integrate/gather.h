@@ -1,6 +1,6 @@
 #pragma once
 
-#include "isophote/derivatives/gather.h"
+#include "isophote/derivatives/sphere_gather.h"
 #include "isophote/integrate/far_light.h"
 
 namespace isophote {
@@ -22,9 +22,13 @@ struct Place {
 inline Query query_at(const Place& place) { return {place.position, place.normal, place.normal}; }
 
 /// One ray into each stratum of the hemisphere above `place`. Radiance is a path's, or, where `from` is not none,
-/// direct light plus what that knows; emission of directly sampled emitters at the first hit is left out. `key` seeds
-/// the record.
+/// direct light plus what that knows; emission of directly sampled emitters at the first hit is left out. Where the
+/// world has media, samples have layers. `key` seeds the record.
 void gather_hemisphere(const World& world, const FarLight& from, const Place& place, Strata strata, std::uint64_t key,
                        HemisphereGather& gather, RayCounts& counts);
+
+/// The same over the sphere about a point of the world's media, which lies in a solid of absorption `inside` (1/m).
+void gather_sphere(const World& world, const FarLight& from, const Vec3& position, const Rgb& inside,
+                   SphereStrata strata, std::uint64_t key, SphereGather& gather, RayCounts& counts);
 
 }  // namespace isophote

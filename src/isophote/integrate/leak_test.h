@@ -1,6 +1,6 @@
 #pragma once
 
-#include "isophote/cache/record_cache.h"
+#include "isophote/cache/volume_cache.h"
 #include "isophote/trace/shadow.h"
 
 namespace isophote {
@@ -13,6 +13,9 @@ struct LeakTest {
 
   bool operator()(const Site& record, const Query& query) const {
     return open_between(world, {record.position, record.normal}, {query.position, query.normal}, counts);
+  }
+  bool operator()(const Site& record, const VolumeQuery& query) const {
+    return open_between(world, record.position, query.position, counts);
   }
 };
 

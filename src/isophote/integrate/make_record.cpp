@@ -71,7 +71,7 @@ std::optional<Place> uncovered_place(const Job& job, const RecordCache& cache, c
 std::optional<SeenPlace> random_place(const Job& job, Sampler& stream, std::uint64_t key, RayCounts& counts) {
   const Vec2 at = stream.next2(), pixel{at.x * job.width, at.y * job.height};
   const Ray ray = job.camera.ray(pixel.x, pixel.y, job.width, job.height);
-  const auto place = place_of(job, first_point(job.world, ray, true, stream, counts.camera), key);
+  const auto place = place_of(job, first_point(job.world.clear(), ray, true, stream, counts.camera), key);
   if (!place) return std::nullopt;
   return SeenPlace{*place, pixel};
 }

@@ -25,7 +25,8 @@ struct Look {
 
 Look look(const Job& job, const Window& window, float x, float y, RayCounts& counts) {
   Sampler stream = job.sampler(static_cast<int>(x), static_cast<int>(y), 0);
-  Look view{first_point(job.world, job.camera.ray(x, y, job.width, job.height), true, stream, counts.camera), {}};
+  Look view{first_point(job.world.clear(), job.camera.ray(x, y, job.width, job.height), true, stream, counts.camera),
+            {}};
   if (const auto place = wanted_place(job, view.seen))
     view.sight = {*place, view.seen.direction, place->pixel / window.zoom};
   return view;

@@ -33,7 +33,7 @@ RecordMaps record_maps(const Job& job, const RecordCache& cache, RayCounts& rays
     for (int x = 0; x < job.width; ++x) {
       Sampler stream = job.sampler(x, static_cast<int>(y), 0);
       const Ray ray = job.camera_ray(x, static_cast<int>(y), stream);
-      const auto place = place_of(job, first_point(job.world, ray, true, stream, counts.camera));
+      const auto place = place_of(job, first_point(job.world.clear(), ray, true, stream, counts.camera));
       if (!place) continue;
       const Query query = query_at(*place);
       const LeakTest open{job.world, counts};

@@ -51,6 +51,7 @@ BuildReport refine(const Job& asked, RecordCache& cache, std::span<const Place> 
   RecordCache refined(cache.bounds());
   refined.cells() = std::move(cache.cells());
   refined.set_radiance(cache.radiance());
+  refined.set_volumes(cache.volumes());
   for (const Record& record : records) {
     const std::uint32_t id = refined.insert(record);
     job.method.settle(refined.settling(), {&id, 1});

@@ -60,6 +60,7 @@ RecordCache regressed(const Job& job, const RecordCache& cache, RayCounts& count
   }
   result.reindex();
   if (cache.radiance()) result.set_radiance(regressed_radiance(job, *cache.radiance(), counts));
+  result.set_volumes(cache.volumes());
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
+#include "isophote/integrate/march.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/shade.h"
 
@@ -23,9 +24,15 @@ Seen shade_sample(const Job& job, const RecordCache* cache, const Ray& ray, cons
   Seen result;
   PixelSample& out = result.sample;
   out.direct = seen.emission;
-  if (seen.first_distance == infinity) return result;
+  const float distance = seen.first_distance < infinity ? seen.first_distance : seen.path_length;
+  if (distance == infinity) return result;
   out.alpha = 1;
-  out.depth = seen.first_distance * dot(ray.direction, job.camera.forward);
+  out.depth = distance * dot(ray.direction, job.camera.forward);
+  if (seen.medium_point) {
+    const Scattered light = scatter(job.world, *seen.medium_point, seen.direction, seen.depth, stream, counts);
+    out.direct += seen.throughput * light.direct;
+    out.indirect = seen.throughput * light.indirect;
+  }
   if (!seen.point) return result;
   const SurfacePoint& point = *seen.point;
   const Vec3 wo = -seen.direction;
@@ -47,6 +54,25 @@ Seen shade_sample(const Job& job, const RecordCache* cache, const Ray& ray, cons
   out.indirect = seen.throughput * light.indirect;
   out.irradiance = light.irradiance;
   result.covered = light.covered;
+  return result;
+}
+
+/// One sample of a pixel. Where the cache has records of media, the way to the first surface is marched; further on,
+/// and without them, media scatter by chance.
+Seen see(const Job& job, const RecordCache* cache, const Ray& ray, Uncovered uncovered, Sampler& stream,
+         RayCounts& counts) {
+  if (!cache || !cache->volumes() || !job.world.media)
+    return shade_sample(job, cache, ray, first_point(job.world, ray, true, stream, counts.camera), uncovered, stream,
+                        counts);
+  FirstPoint seen = first_point(job.world, ray, true, stream, counts.camera, {}, FirstSegment::clear);
+  const Ray way{ray.origin, ray.direction, 0, seen.first_distance};
+  const Marched marched = march(job.world, {cache, nullptr, nullptr, &job.method.glossy}, way, 0, stream, counts);
+  seen.emission *= marched.transmittance, seen.throughput *= marched.transmittance;
+  Seen result = shade_sample(job, cache, ray, seen, uncovered, stream, counts);
+  result.sample.direct += marched.direct;
+  result.sample.indirect += marched.indirect;
+  result.sample.irradiance *= marched.transmittance;
+  result.covered = result.covered && marched.covered;
   return result;
 }
 
@@ -95,8 +121,7 @@ class FinalPass {
   bool sample(int x, int y, int s, Uncovered uncovered, RayCounts& counts) {
     Sampler stream = job_.sampler(x, y, s);
     const Ray ray = job_.camera_ray(x, y, stream);
-    const FirstPoint seen = first_point(job_.world, ray, true, stream, counts.camera);
-    const Seen result = shade_sample(job_, cache_, ray, seen, uncovered, stream, counts);
+    const Seen result = see(job_, cache_, ray, uncovered, stream, counts);
     film_.add(x, y, result.sample);
     return result.covered;
   }
@@ -126,8 +151,7 @@ Radiance pixel_radiance(const Job& job, const RecordCache& cache, int x, int y) 
   for (int s = 0; s < job.samples; ++s) {
     Sampler stream = job.sampler(x, y, s);
     const Ray ray = job.camera_ray(x, y, stream);
-    const FirstPoint seen = first_point(job.world, ray, true, stream, counts.camera);
-    const PixelSample sample = shade_sample(job, &cache, ray, seen, Uncovered::trace, stream, counts).sample;
+    const PixelSample sample = see(job, &cache, ray, Uncovered::trace, stream, counts).sample;
     sum.direct += sample.direct;
     sum.indirect += sample.indirect;
   }
@@ -144,8 +168,7 @@ RgbImage coarse_picture(const Job& job, const RecordCache& cache, int stride) {
       const int x = std::min(left + stride / 2, job.width - 1), y = std::min(top + stride / 2, job.height - 1);
       Sampler stream = job.sampler(x, y, 0);
       const Ray ray = job.camera_ray(x, y, stream);
-      const FirstPoint seen = first_point(job.world, ray, true, stream, counts.camera);
-      const PixelSample s = shade_sample(job, &cache, ray, seen, Uncovered::skip, stream, counts).sample;
+      const PixelSample s = see(job, &cache, ray, Uncovered::skip, stream, counts).sample;
       for (int v = top; v < std::min(top + stride, job.height); ++v)
         for (int u = left; u < std::min(left + stride, job.width); ++u) picture.at(u, v) = s.direct + s.indirect;
     }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "isophote/core/hash.h"
+#include "isophote/scene/density_grid.h"
 
 namespace isophote {
 namespace {
@@ -73,6 +74,24 @@ void add_light(Hasher& h, const PunctualLight& l) {
   h.add(l.inner_cone), h.add(l.outer_cone), h.add(l.range);
 }
 
+/// Which alternative it holds, and what that says.
+void add_density(Hasher& h, const Medium& m) {
+  h.add(std::uint64_t{m.density.index()});
+  if (const auto* height = std::get_if<HeightDensity>(&m.density)) h.add(height->base), h.add(height->height);
+  if (const auto* grid = std::get_if<GridDensity>(&m.density)) h.add((*grid)->content_hash());
+}
+
+void add_bounds(Hasher& h, const Medium& m) {
+  h.add(std::uint64_t{m.bounds.index()});
+  if (const auto* box = std::get_if<Box>(&m.bounds)) h.add(box->lower), h.add(box->upper);
+  if (const auto* mesh = std::get_if<ClosedMesh>(&m.bounds)) h.add(mesh->positions), h.add(mesh->triangles);
+}
+
+void add_medium(Hasher& h, const Medium& m) {
+  h.add(m.scattering), h.add(m.absorption), h.add(m.emission), h.add(m.g);
+  add_density(h, m), add_bounds(h, m);
+}
+
 }  // namespace
 
 std::uint64_t scene_hash(const Scene& scene) {
@@ -83,6 +102,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   for (const PunctualLight& l : scene.lights) add_light(h, l);
   h.add(static_cast<std::uint64_t>(scene.environment.radiance.width));
   h.add(scene.environment.radiance.pixels), h.add(scene.environment.rotation);
+  for (const Medium& m : scene.media) add_medium(h, m);
   return h.value();
 }
 

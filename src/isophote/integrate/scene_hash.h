@@ -6,8 +6,8 @@
 
 namespace isophote {
 
-/// A hash of all that decides a scene's light: geometry, materials, textures, lights, environment. Cameras are left
-/// out: records made from one view serve another.
+/// A hash of all that decides a scene's light: geometry, materials, textures, lights, environment, media. Cameras are
+/// left out: records made from one view serve another.
 std::uint64_t scene_hash(const Scene& scene);
 
 }  // namespace isophote

@@ -115,7 +115,9 @@ Shaded shade(const World& world, const FarLight& from, const SurfacePoint& point
     result.indirect += throughput * ray.next.emission;
     throughput *= ray.next.throughput;
     depth += 1 + ray.next.depth;
-    if (!ray.next.point || depth >= world.max_depth || is_black(throughput)) break;
+    if (depth >= world.max_depth || is_black(throughput)) break;
+    if (ray.next.medium_point) result.indirect += throughput * path_radiance(world, ray.next, depth, sampler, counts);
+    if (!ray.next.point) break;
     at = &*ray.next.point;
     towards = -ray.next.direction;
     left = shade_by_caches(world, from, *at, towards, ray.next.path_length, depth, sampler, counts);

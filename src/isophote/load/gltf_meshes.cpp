@@ -252,7 +252,8 @@ std::vector<Mesh> read_meshes(const tinygltf::Model& model, std::span<const Plac
           ++context.without_triangles;
           return;
         }
-        mesh.name = source.name.empty() ? model.nodes[static_cast<std::size_t>(placed.node)].name : source.name;
+        mesh.node = model.nodes[static_cast<std::size_t>(placed.node)].name;
+        mesh.name = source.name.empty() ? mesh.node : source.name;
         meshes.push_back(std::move(mesh));
       });
   if (context.dropped > 0) warn(fmt::format("{} degenerate triangles are left out", context.dropped));

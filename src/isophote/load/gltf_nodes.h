@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "isophote/load/affine.h"
+#include "isophote/core/affine.h"
 #include "isophote/load/gltf_file.h"
 
 namespace isophote {

@@ -8,6 +8,7 @@
 
 #include "isophote/image/exr.h"
 #include "isophote/load/largest_radiance.h"
+#include "isophote/load/media.h"
 #include "isophote/load/messages.h"
 #include "isophote/load/read_file.h"
 #include "isophote/load/scene_toml.h"
@@ -27,15 +28,6 @@ std::string lower_suffix(const std::string& path) {
 bool is_gltf(const std::string& path) {
   const std::string suffix = lower_suffix(path);
   return suffix == ".glb" || suffix == ".gltf";
-}
-
-/// The path of a file that the scene file names. Throws UserError with the place where it is named.
-std::string resolve(const SceneToml::File& file, const fs::path& folder) {
-  const fs::path path = folder / file.path;
-  std::error_code error;
-  if (!fs::is_regular_file(path, error))
-    throw UserError(fmt::format("{}: no file '{}'", file.place, one_line(path.string())));
-  return path.string();
 }
 
 EnvironmentMap read_environment(const SceneToml::Environment& source, const fs::path& folder) {
@@ -85,6 +77,7 @@ LoadedScene load_scene(const std::string& path, const Warn& warn) {
     loaded.scene.environment = read_environment(*toml.environment, folder);
     loaded.files.push_back(resolve(toml.environment->file, folder));
   }
+  add_media(toml.media, folder, budget, loaded.scene, loaded.files);
   return loaded;
 }
 

@@ -17,12 +17,12 @@ struct Setting {
 struct LoadedScene {
   Scene scene;
   std::vector<Setting> settings;
-  std::vector<std::string> files;  ///< that the scene names besides `path` itself: glTF, environment, buffers, images
+  std::vector<std::string> files;  ///< that it names besides `path`: glTF, buffers, images, environment, grids
 };
 
 /// Reads a scene: a glTF file, or a TOML file that names one ([scene] file) and adds an environment
-/// ([environment] file, rotation in degrees, intensity), film and method settings. Paths are relative to the TOML file.
-/// Throws UserError `PATH:LINE: reason`.
+/// ([environment] file, rotation in degrees, intensity), media ([[media]], see README), film and method settings. Paths
+/// are relative to the TOML file. Throws UserError `PATH:LINE: reason`.
 LoadedScene load_scene(const std::string& path, const Warn& warn);
 
 }  // namespace isophote

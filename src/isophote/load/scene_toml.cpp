@@ -1,85 +1,42 @@
 #include "isophote/load/scene_toml.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
-#include <algorithm>
-#include <cmath>
-#include <initializer_list>
-
+#include "isophote/load/media_toml.h"
 #include "isophote/load/messages.h"
+#include "isophote/load/toml_reader.h"
 
 namespace isophote {
 namespace {
 
-class SceneReader {
+class SceneReader : public TomlReader {
  public:
-  explicit SceneReader(const std::string& name) : name_(name) {}
+  using TomlReader::TomlReader;
 
   SceneToml read(const toml::table& root) {
-    refuse_unknown(root, "", {"scene", "environment", "film", "method"});
+    refuse_unknown(root, "", {"scene", "environment", "media", "film", "method"});
     SceneToml result;
     result.scene = read_scene(root);
     result.environment = read_environment(root);
+    result.media = read_media(*this, root);
     for (const char* table : {"film", "method"}) read_settings(root, table, result.settings);
     return result;
   }
 
  private:
-  std::string place(const toml::source_region& source) const { return fmt::format("{}:{}", name_, source.begin.line); }
-
-  [[noreturn]] void fail(const toml::source_region& source, const std::string& reason) const {
-    throw UserError(place(source) + ": " + one_line(reason));
-  }
-
-  void refuse_unknown(const toml::table& table, const std::string& name,
-                      std::initializer_list<std::string_view> known) const {
-    for (const auto& [key, value] : table) {
-      if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-      if (name.empty())
-        fail(key.source(), fmt::format("unknown table or key '{}': there are {}", key.str(), fmt::join(known, ", ")));
-      fail(key.source(),
-           fmt::format("unknown key '{}' in [{}]: there are {}", key.str(), name, fmt::join(known, ", ")));
-    }
-  }
-
-  /// The table of that name, or null.
-  const toml::table* find_table(const toml::table& root, const char* name) const {
-    const toml::node* node = root.get(name);
-    if (node && !node->is_table()) fail(node->source(), fmt::format("'{}' must be a table", name));
-    return node ? node->as_table() : nullptr;
-  }
-
-  SceneToml::File read_path(const toml::table& table, const char* name) const {
-    const toml::node* node = table.get("file");
-    if (!node) fail(table.source(), fmt::format("[{}] needs a key 'file'", name));
-    const auto path = node->value_exact<std::string>();
-    if (!path || path->empty() || path->find('\0') != path->npos)
-      fail(node->source(), fmt::format("[{}] file must be a path", name));
-    return {*path, place(node->source())};
-  }
-
-  double read_number(const toml::table& table, const char* name, double fallback) const {
-    const toml::node* node = table.get(name);
-    if (!node) return fallback;
-    const auto number = node->is_number() ? node->value<double>() : std::nullopt;
-    if (!number || !std::isfinite(*number)) fail(node->source(), fmt::format("{} must be a number", name));
-    return *number;
-  }
-
   SceneToml::File read_scene(const toml::table& root) const {
     const toml::table* table = find_table(root, "scene");
     if (!table) throw UserError(name_ + ":1: needs a table [scene] with the key 'file', which names a glTF file");
-    refuse_unknown(*table, "scene", {"file"});
-    return read_path(*table, "scene");
+    refuse_unknown(*table, "[scene]", {"file"});
+    return read_path(*table, "[scene]");
   }
 
   std::optional<SceneToml::Environment> read_environment(const toml::table& root) const {
     const toml::table* table = find_table(root, "environment");
     if (!table) return {};
-    refuse_unknown(*table, "environment", {"file", "rotation", "intensity"});
+    refuse_unknown(*table, "[environment]", {"file", "rotation", "intensity"});
     SceneToml::Environment environment;
-    environment.file = read_path(*table, "environment");
+    environment.file = read_path(*table, "[environment]");
     environment.rotation = read_number(*table, "rotation", 0);
     environment.intensity = read_number(*table, "intensity", 1);
     if (environment.intensity < 0) fail(table->get("intensity")->source(), "intensity must not be negative");
@@ -105,11 +62,17 @@ class SceneReader {
     for (const auto& [key, value] : *table)
       settings.push_back({name, std::string(key.str()), setting_text(value, key.str(), false), place(key.source())});
   }
-
-  const std::string& name_;
 };
 
 }  // namespace
+
+std::string resolve(const SceneToml::File& file, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / file.path;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw UserError(fmt::format("{}: no file '{}'", file.place, one_line(path.string())));
+  return path.string();
+}
 
 SceneToml parse_scene_toml(std::string_view text, const std::string& name) {
   toml::table root;

@@ -10,6 +10,7 @@
 #include "isophote/image/image.h"
 #include "isophote/scene/camera.h"
 #include "isophote/scene/material.h"
+#include "isophote/scene/medium.h"
 #include "isophote/scene/texture.h"
 
 namespace isophote {
@@ -17,6 +18,7 @@ namespace isophote {
 /// Triangles of one material, in world space. Attribute arrays are empty or as long as `positions`.
 struct Mesh {
   std::string name;
+  std::string node;  ///< what the instance is called
   int material = 0;
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;         ///< unit
@@ -54,6 +56,7 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<PunctualLight> lights;
   EnvironmentMap environment;
+  std::vector<Medium> media;    ///< at most 32
   std::vector<Camera> cameras;  ///< never empty after loading
 
   Box bounds() const;

@@ -17,13 +17,25 @@ bool survives(Rgb& throughput, int events, Sampler& sampler) {
   return true;
 }
 
+/// Lets media act on a ray up to its end; true where one scatters it: the ray goes no further.
+bool scattered_on_the_way(const World& world, const Ray& ray, const Rgb& inside, Sampler& sampler, FirstPoint& first) {
+  first.medium_point = world.media->collide(ray, sampler, first.throughput, first.emission);
+  if (!first.medium_point) return false;
+  const float way = length(first.medium_point->position - ray.origin);
+  first.medium_point->inside = inside;
+  first.throughput *= transmittance(inside, way);
+  first.path_length += way;
+  return true;
+}
+
 }  // namespace
 
 const Rgb& medium_before(const SurfacePoint& point, const Rgb& inside) {
   return is_black(point.medium) ? inside : point.medium;
 }
 
-Arrival follow(const World& world, const Ray& start, Rgb inside, int depth, Sampler& sampler, std::uint64_t& kind) {
+Arrival follow(const World& world, const Ray& start, Rgb inside, int depth, Sampler& sampler, std::uint64_t& kind,
+               FirstSegment first_segment) {
   Arrival arrival;
   FirstPoint& first = arrival.first;
   Ray ray = start;
@@ -32,23 +44,28 @@ Arrival follow(const World& world, const Ray& start, Rgb inside, int depth, Samp
     first.direction = ray.direction;
     const bool straight = first.depth == 0;  // no specular event yet
     Hit hit;
-    if (!world.rays.intersect(ray, sampler.next_bits(), hit)) {
+    SurfacePoint point;
+    const bool met = world.rays.intersect(ray, sampler.next_bits(), hit);
+    if (met) point = surface_point(world.scene, ray, hit);
+    if (met && straight) {
+      arrival.hit = hit;
+      first.first_distance = hit.distance;
+      first.first_normal = point.geometric_normal;
+      first.first_mesh = hit.mesh;
+    }
+    const bool in_media = world.media && !(straight && first_segment == FirstSegment::clear);
+    if (in_media && scattered_on_the_way(world, {ray.origin, ray.direction, 0, hit.distance}, inside, sampler, first))
+      return arrival;
+    if (!met) {
       const Emitters::Sky sky = world.emitters.environment(ray.direction);
       (straight ? (sky.sampled_directly ? arrival.lamp : arrival.sky) : first.emission) +=
           first.throughput * sky.radiance;
       first.path_length = infinity;
       return arrival;
     }
-    SurfacePoint point = surface_point(world.scene, ray, hit);
     point.medium = medium_before(point, inside);
     first.path_length += hit.distance;
     first.throughput *= transmittance(point.medium, hit.distance);
-    if (straight) {
-      arrival.hit = hit;
-      first.first_distance = hit.distance;
-      first.first_normal = point.geometric_normal;
-      first.first_mesh = hit.mesh;
-    }
     (straight ? arrival.lamp : first.emission) += first.throughput * point.emission;
 
     const Vec3 wo = -ray.direction;
@@ -72,8 +89,8 @@ Arrival follow(const World& world, const Ray& start, Rgb inside, int depth, Samp
 }
 
 FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind,
-                       const Rgb& inside) {
-  Arrival arrival = follow(world, ray, inside, 0, sampler, kind);
+                       const Rgb& inside, FirstSegment first_segment) {
+  Arrival arrival = follow(world, ray, inside, 0, sampler, kind, first_segment);
   arrival.first.emission += arrival.sky;
   if (see_lamps) arrival.first.emission += arrival.lamp;
   return arrival.first;

@@ -17,7 +17,9 @@ struct Arrival {
 const Rgb& medium_before(const SurfacePoint& point, const Rgb& inside);
 
 /// Follows a ray, before which `depth` events happened, through specular surfaces. It starts in a medium of absorption
-/// `inside` (1/m). Chains have no length limit but world.max_depth; Russian roulette ends each one.
-Arrival follow(const World& world, const Ray& ray, Rgb inside, int depth, Sampler& sampler, std::uint64_t& kind);
+/// `inside` (1/m). Chains have no length limit but world.max_depth; Russian roulette ends each one. Media do not act on
+/// the first segment where the caller accounts for what they do there.
+Arrival follow(const World& world, const Ray& ray, Rgb inside, int depth, Sampler& sampler, std::uint64_t& kind,
+               FirstSegment first_segment = FirstSegment::in_media);
 
 }  // namespace isophote

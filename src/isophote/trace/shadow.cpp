@@ -6,8 +6,8 @@
 namespace isophote {
 namespace {
 
-Ray shadow_ray(const SurfacePoint& from, const LightSample& light) {
-  Ray ray{offset_origin(from, light.direction), light.direction};
+Ray shadow_ray(const Vec3& origin, const LightSample& light) {
+  Ray ray{origin, light.direction};
   if (light.distance == infinity) return ray;
   // Aimed anew, from off the surface to off the emitter, which would else hide itself.
   const Vec3 to = light.end - ray.origin;
@@ -18,19 +18,17 @@ Ray shadow_ray(const SurfacePoint& from, const LightSample& light) {
   return ray;
 }
 
-Rgb through_sheets(const World& world, const SurfacePoint& point, const LightSample& light, std::uint32_t seed,
-                   RayCounts& counts) {
+Rgb through_sheets(const World& world, Ray ray, const LightSample& light, std::uint32_t seed, RayCounts& counts) {
   constexpr int most_sheets = 32;
   Rgb passed(1.0f);
-  SurfacePoint from = point;
   for (int sheets = 0; sheets <= most_sheets; ++sheets) {
-    const Ray ray = shadow_ray(from, light);
     Hit hit;
     ++counts.shadow;
     if (!world.rays.intersect(ray, seed, hit)) return passed;
-    from = surface_point(world.scene, ray, hit);
-    passed *= sheet_transmittance(from.bsdf, -ray.direction);
+    const SurfacePoint sheet = surface_point(world.scene, ray, hit);
+    passed *= sheet_transmittance(sheet.bsdf, -ray.direction);
     if (is_black(passed)) break;
+    ray = shadow_ray(offset_origin(sheet, light.direction), light);
   }
   return {};
 }
@@ -39,17 +37,19 @@ Rgb through_sheets(const World& world, const SurfacePoint& point, const LightSam
 
 Rgb transmittance(const Rgb& sigma, float distance) { return is_black(sigma) ? Rgb(1.0f) : exp(sigma * -distance); }
 
-Rgb light_transmittance(const World& world, const SurfacePoint& point, const LightSample& light, std::uint32_t seed,
+Rgb light_transmittance(const World& world, const ShadowStart& start, const LightSample& light, std::uint32_t seed,
                         RayCounts& counts) {
+  const Ray ray = shadow_ray(start.origin, light);
   Rgb passed(1.0f);
   if (light.delta && world.rays.has_sheets()) {
-    passed = through_sheets(world, point, light, seed, counts);
+    passed = through_sheets(world, ray, light, seed, counts);
   } else {
     ++counts.shadow;
-    if (world.rays.occluded(shadow_ray(point, light), seed)) return {};
+    if (world.rays.occluded(ray, seed)) return {};
   }
+  if (world.media && !is_black(passed)) passed *= world.media->transmittance(ray, seed);
   // A closed solid hides what is infinitely far.
-  return light.distance < infinity ? passed * transmittance(point.medium, light.distance) : passed;
+  return light.distance < infinity ? passed * transmittance(start.inside, light.distance) : passed;
 }
 
 bool open_between(const World& world, const Spot& a, const Spot& b, RayCounts& counts) {
@@ -67,6 +67,14 @@ bool open_between(const World& world, const Spot& a, const Spot& b, RayCounts& c
   const Ray ray{a.position + normals * (lift / size), way / distance, short_of * distance, (1 - short_of) * distance};
   ++counts.verification;
   return !world.rays.occluded(ray, 0);
+}
+
+bool open_between(const World& world, const Vec3& a, const Vec3& b, RayCounts& counts) {
+  const Vec3 way = b - a;
+  const float distance = length(way);
+  if (!(distance > 0)) return true;
+  ++counts.verification;
+  return !world.rays.occluded({a, way / distance, 0, distance}, 0);
 }
 
 }  // namespace isophote

@@ -11,8 +11,9 @@ namespace isophote {
 
 /// How much a record counts as the error t at the query grows from 0 to 1. `ward` is 1/t - 1 [Ward, Rubinstein, Clear
 /// 1988, shifted to reach 0 at the rim, so that nothing pops]; `tent` is 1 - t; `tabellion` is a tent over the larger
-/// of the two parts of t, of which that of the normals reaches 1 at ten degrees [Tabellion, Lamorlette 2004].
-enum class Falloff : std::uint8_t { ward, tent, tabellion };
+/// of the two parts of t, of which that of the normals reaches 1 at ten degrees [Tabellion, Lamorlette 2004]; `smooth`
+/// is 3 d^2 - 2 d^3 of d = 1 - t, whose slope vanishes at the rim and at the record [Jarosz 2008a].
+enum class Falloff : std::uint8_t { ward, tent, tabellion, smooth };
 
 /// Where a record may be used. A record at x_i with normal n_i serves a query (x, n) whose error
 ///   t = sqrt(q . shape q) + normal_scale * |n - n_i| / sqrt(2),   q = x - x_i
@@ -27,13 +28,24 @@ struct Footprint {
   float largest = std::numeric_limits<float>::infinity();
   Falloff falloff = Falloff::ward;
   std::uint8_t order = 0;  ///< 0: the value alone; 1: extrapolated by its gradients; 2: and by its Hessian
+  /// Of records in media: extrapolated and averaged in the value's logarithm, in which what decays exponentially is
+  /// linear [Jarosz 2008a].
+  bool logarithmic = false;
 
-  /// A round footprint.
+  /// A round footprint on surfaces.
   static Footprint disk(float radius, float normal_scale) {
     Footprint f;
     f.shape = Sym3::scaled_identity(1 / (radius * radius));
     f.normal_scale = normal_scale;
     f.radius = radius;
+    return f;
+  }
+
+  /// A round footprint in media, where there are no normals.
+  static Footprint ball(float radius) {
+    Footprint f = disk(radius, 0);
+    f.unscaled = radius;
+    f.falloff = Falloff::smooth;
     return f;
   }
 

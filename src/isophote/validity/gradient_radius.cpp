@@ -30,7 +30,8 @@ float gradient_radius(const Jet<Rgb>& jet) {
 float gradient_radius(const RadianceJet& jet) {
   float radius = infinite;
   for (int c = 0; c < 3; ++c) {
-    const float steepness = std::sqrt(sum_of_squares(jet.translational.x, c) + sum_of_squares(jet.translational.y, c));
+    const auto& [x, y, z] = jet.translational;
+    const float steepness = std::sqrt(sum_of_squares(x, c) + sum_of_squares(y, c) + sum_of_squares(z, c));
     if (steepness > 0) radius = std::min(radius, std::sqrt(sum_of_squares(jet.value, c)) / steepness);
   }
   return radius;

@@ -5,13 +5,25 @@
 #include "isophote/validity/gradient_radius.h"
 
 namespace isophote {
+namespace {
+
+/// A channel that is next to nothing beside the others may change by more than itself: nobody sees it.
+constexpr float least_channel = 0.05f;
+
+Rgb squares(const Coefficients& all) {
+  Rgb sum;
+  for (const Rgb& c : all) sum += c * c;
+  return sum;
+}
+Rgb root(const Rgb& c) { return {std::sqrt(c.r), std::sqrt(c.g), std::sqrt(c.b)}; }
+
+}  // namespace
 
 void limit_extrapolation(Record& record, float natural_radius) {
   const auto& g = record.jet.translational;
   const Rgb& value = record.jet.value;
   const float radius = record.footprint.radius;
-  // A channel that is next to nothing beside the others may change by more than itself: nobody sees it.
-  const float least = 0.05f * luminance(value);
+  const float least = least_channel * luminance(value);
   float scale = std::min(1.0f, natural_radius / radius);
   for (int c = 0; c < 3; ++c) {
     const float change = length(Vec3{g.x[c], g.y[c], g.z[c]}) * radius, room = std::max(value[c], least);
@@ -27,6 +39,17 @@ void limit_extrapolation(Record& record, float natural_radius) {
 void limit_extrapolation(RadianceRecord& record, float natural_radius) {
   const float radius = record.footprint.radius, change = radius / gradient_radius(record.jet);
   record.gradient_scale = std::min({1.0f, natural_radius / radius, change > 1 ? 1 / change : 1});
+}
+
+void limit_extrapolation(VolumeRecord& record) {
+  const auto& [x, y, z] = record.jet.translational;
+  Rgb value = root(squares(record.jet.value)), slope = root(squares(x) + squares(y) + squares(z));
+  const float least = least_channel * luminance(value), radius = record.footprint.radius;
+  record.gradient_scale = 1;
+  for (int c = 0; c < 3; ++c) {
+    const float change = slope[c] * radius, room = std::max(value[c], least);
+    if (change > room) record.gradient_scale = std::min(record.gradient_scale, room / change);
+  }
 }
 
 }  // namespace isophote

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "isophote/validity/record.h"
+#include "isophote/validity/volume_record.h"
 
 namespace isophote {
 
@@ -22,6 +22,8 @@ class NeighbourIndex {
     float unscaled = 0;
 
     Known(const Site& site) : position(site.position), normal(site.normal), unscaled(site.footprint.unscaled) {}
+    /// Records in media all face alike: radiance does not jump at the bounds of a medium.
+    Known(const VolumeRecord& record) : Known(static_cast<const Site&>(record)) { normal = {0, 0, 1}; }
   };
 
   explicit NeighbourIndex(const Box& bounds);

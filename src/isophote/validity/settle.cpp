@@ -22,6 +22,9 @@ void settle_raised(R& record, const SettleRule& rule) {
   record.footprint.flatten(record.normal, std::min(height, std::max(natural, least_height * radius)));
 }
 
+/// In media there is no surface to stay with.
+void settle_raised(VolumeRecord& record, const SettleRule&) { limit_extrapolation(record); }
+
 void shrink(Site& record, float unscaled, const SettleRule& rule) {
   record.footprint.unscaled = unscaled;
   record.footprint.resize(unscaled * rule.scale);
@@ -59,5 +62,6 @@ void settle(const SettlingOf<R>& settling, std::span<const std::uint32_t> fresh,
 
 template void settle(const SettlingOf<Record>&, std::span<const std::uint32_t>, const SettleRule&);
 template void settle(const SettlingOf<RadianceRecord>&, std::span<const std::uint32_t>, const SettleRule&);
+template void settle(const SettlingOf<VolumeRecord>&, std::span<const std::uint32_t>, const SettleRule&);
 
 }  // namespace isophote

@@ -9,4 +9,6 @@ Footprint uniform(const View& view, float a) {
   return footprint;
 }
 
+Footprint uniform_in_media(const View& view, float a) { return Footprint::ball(0.1f * a * view.scene_scale); }
+
 }  // namespace isophote

@@ -16,6 +16,16 @@ struct Affine {
     const Vec3d cofactor = cross(y, z) * n.x + cross(z, x) * n.y + cross(x, y) * n.z;
     return determinant() < 0 ? -cofactor : cofactor;
   }
+  /// The gradient of f(point(p)) where that of f is `g`: the transpose of the linear part applied to it.
+  Vec3d pull_back(const Vec3d& g) const { return {dot(x, g), dot(y, g), dot(z, g)}; }
+  /// The determinant must not be 0.
+  Affine inverse() const {
+    const double d = determinant();
+    const Vec3d a = cross(y, z) / d, b = cross(z, x) / d, c = cross(x, y) / d;
+    Affine inverse{{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}, {}};
+    inverse.origin = -inverse.vector(origin);
+    return inverse;
+  }
 
   friend Affine operator*(const Affine& a, const Affine& b) {
     return {a.vector(b.x), a.vector(b.y), a.vector(b.z), a.point(b.origin)};

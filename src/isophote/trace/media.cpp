@@ -1,0 +1,272 @@
+#include "isophote/trace/media.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "isophote/core/hash.h"
+#include "isophote/scene/density_grid.h"
+#include "isophote/trace/density_walk.h"
+#include "isophote/trace/medium_spans.h"
+
+namespace isophote {
+namespace {
+
+/// A stream of numbers for walks whose length nobody knows beforehand.
+class Numbers {
+ public:
+  explicit Numbers(std::uint64_t seed) : state_(hash(seed)) {}
+  float next() { return unit_float(static_cast<std::uint32_t>(mix_bits(state_ += 0x9e3779b97f4a7c15ull) >> 32)); }
+  /// Exponentially distributed with mean 1.
+  float next_depth() { return depth(next()); }
+  static float depth(float u) { return -std::log1p(-u); }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// The next place, in one medium along a ray, at which the medium may turn out to be met.
+struct Flight {
+  MediumSpan span;
+  float bound = 0;  // on density, there
+};
+
+}  // namespace
+
+struct Media::Impl {
+  std::span<const Medium> media;
+  MediumBounds bounds;
+  std::vector<float> rates;  // of tentative collisions per length, at density 1
+
+  explicit Impl(std::span<const Medium> all) : media(all), bounds(all) {
+    for (const Medium& m : media) {
+      const float rate = max_component(m.extinction());
+      rates.push_back(rate > 0 || is_black(m.emission) ? rate : emission_rate(m));
+    }
+  }
+
+  /// Density for choosing by: never so small that other places of its surroundings would be missed.
+  static float roughly(const Medium& medium, const Vec3& p) {
+    constexpr float least = 0.02f;
+    const auto* grid = std::get_if<GridDensity>(&medium.density);
+    return grid ? std::max((*grid)->density(p), least * (*grid)->majorant()) : density_at(medium, p);
+  }
+
+  /// What only emits is met about four times along its diagonal.
+  static float emission_rate(const Medium& medium) {
+    Box box;
+    if (const auto* mesh = std::get_if<ClosedMesh>(&medium.bounds))
+      for (const Vec3& p : mesh->positions) box.extend(p);
+    else
+      box = std::get<Box>(medium.bounds);
+    return 4 / box.diagonal();
+  }
+
+  /// Moves on to the next tentative collision; false: there is none before the span's end.
+  bool fly_on(const Ray& ray, float depth, Flight& flight) const {
+    const std::uint32_t i = flight.span.medium;
+    if (!(rates[i] > 0)) return false;
+    const FlightEnd end = fly(media[i], ray, flight.span.near, flight.span.far, depth / rates[i]);
+    flight.span.near = end.distance, flight.bound = end.bound;
+    return end.distance < infinity;
+  }
+};
+
+Media::Media(const Scene& scene) : impl_(std::make_unique<const Impl>(scene.media)) {}
+Media::~Media() = default;
+Media::Media(Media&&) noexcept = default;
+
+std::uint32_t Media::holding(const Vec3& p) const {
+  std::uint32_t bits = 0;
+  constexpr float short_way = 1e-30f;
+  const Ray ray{p, {0.6f, 0.64f, 0.48f}, 0, short_way};
+  impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) { bits |= 1u << span.medium; });
+  return bits;
+}
+
+float Media::anisotropy(std::uint32_t media) const {
+  float most = 0;
+  for (std::size_t i = 0; i < impl_->media.size(); ++i)
+    if (media >> i & 1) most = std::max(most, std::abs(impl_->media[i].g));
+  return most;
+}
+
+std::optional<MediumPoint> Media::collide(const Ray& ray, Sampler& sampler, Rgb& throughput, Rgb& emission) const {
+  thread_local std::vector<Flight> flights;
+  flights.clear();
+  // The first free flight takes a number of the sampler, whose samples are stratified.
+  float depth = Numbers::depth(sampler.next());
+  Numbers numbers(sampler.next_bits());
+  impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) {
+    Flight flight{span};
+    if (impl_->fly_on(ray, depth, flight)) flights.push_back(flight);
+    depth = numbers.next_depth();
+  });
+  while (!flights.empty()) {
+    const auto at = std::min_element(flights.begin(), flights.end(),
+                                     [](const Flight& a, const Flight& b) { return a.span.near < b.span.near; });
+    const Medium& medium = impl_->media[at->span.medium];
+    const Vec3 p = ray.origin + ray.direction * at->span.near;
+    // Shares of tentative collisions here that scatter and that are none; the rest absorbs.
+    const float share = std::min(1.0f, density_at(medium, p) / at->bound), rate = impl_->rates[at->span.medium];
+    const Rgb scatters = medium.scattering * (share / rate);
+    const Rgb none = max(Rgb(1.0f) - medium.extinction() * (share / rate), Rgb{});
+    emission += throughput * medium.emission * (share / rate);
+    const float scattered = mean(throughput * scatters), passed = mean(throughput * none);
+    if (!(scattered + passed > 0)) {
+      throughput = {};
+      return std::nullopt;
+    }
+    const float chance = scattered / (scattered + passed);
+    if (numbers.next() < chance) {
+      throughput *= scatters / chance;
+      return MediumPoint{p, medium.g, at->span.medium, {}};
+    }
+    throughput *= none / (1 - chance);
+    if (!impl_->fly_on(ray, numbers.next_depth(), *at)) flights.erase(at);
+  }
+  return std::nullopt;
+}
+
+Rgb Media::transmittance(const Ray& ray, std::uint32_t seed) const {
+  Rgb passed(1.0f);
+  Numbers numbers(seed);
+  impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) {
+    const Medium& medium = impl_->media[span.medium];
+    const Rgb extinction = medium.extinction();
+    if (!std::holds_alternative<GridDensity>(medium.density)) {
+      passed *= exp(extinction * -static_cast<float>(columns(medium, ray, span.near, span.far).density));
+      return;
+    }
+    const float rate = impl_->rates[span.medium];
+    for (Flight flight{span}; impl_->fly_on(ray, numbers.next_depth(), flight);) {
+      const float density = density_at(medium, ray.origin + ray.direction * flight.span.near);
+      passed *= max(Rgb(1.0f) - extinction * (std::min(1.0f, density / flight.bound) / rate), Rgb{});
+      if (is_black(passed)) return;
+    }
+  });
+  return passed;
+}
+
+// With y at distance r along w, log T = -sigma_t c for a column c of density, and
+//   grad c = -density(x) w + P int_0^r (1 - s/r) grad density ds,   P across w;
+// a bound of normal n that the ray leaves at s adds -(1 - s/r) density P n / (n.w), one where it enters the opposite.
+void Media::along(const Ray& ray, std::span<const float> depths, std::span<Passage> passages) const {
+  std::fill(passages.begin(), passages.end(), Passage{});
+  const Vec3d w(ray.direction);
+  const auto add = [&](const Medium& medium, std::size_t i, const Columns& sum, const Vec3d& bound_moves, float here) {
+    const double inverse = 1 / static_cast<double>(depths[i]);
+    const Vec3d across = sum.gradient - sum.gradient_moment * inverse + bound_moves;
+    const Vec3d slope = w * static_cast<double>(here) - (across - w * dot(w, across));
+    const Rgb sigma = medium.extinction();
+    Passage& p = passages[i];
+    p.transmittance *= exp(sigma * -static_cast<float>(sum.density));
+    p.log_gradient.x += sigma * static_cast<float>(slope.x);
+    p.log_gradient.y += sigma * static_cast<float>(slope.y);
+    p.log_gradient.z += sigma * static_cast<float>(slope.z);
+  };
+  impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) {
+    const Medium& medium = impl_->media[span.medium];
+    const float here = span.near > ray.near ? 0 : density_at(medium, ray.origin);
+    Columns sum;
+    float from = span.near;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      const float to = std::min(span.far, depths[i]);
+      if (to > from) sum += columns(medium, ray, from, to), from = to;
+      if (!(depths[i] > span.near)) continue;
+      const double inverse = 1 / static_cast<double>(depths[i]);
+      const auto moved = [&](const Vec3& normal, float s) {
+        const double along_w = dot(Vec3d(normal), w);
+        const double density = density_at(medium, ray.origin + ray.direction * s);
+        return Vec3d(normal) * (along_w != 0 ? (1 - s * inverse) * density / along_w : 0.0);
+      };
+      Vec3d bounds;
+      if (span.near > ray.near) bounds += moved(span.near_normal, span.near);
+      if (depths[i] > span.far) bounds -= moved(span.far_normal, span.far);
+      add(medium, i, sum, bounds, here);
+    }
+  });
+}
+
+std::optional<Media::Scatterer> Media::scatterer(const Vec3& p, float u) const {
+  const std::uint32_t held = holding(p);
+  std::array<float, 32> amounts{};
+  float sum = 0;
+  for (std::size_t i = 0; i < impl_->media.size(); ++i)
+    if (held >> i & 1) {
+      const Medium& medium = impl_->media[i];
+      sum += amounts[i] = mean(medium.scattering) * density_at(medium, p);
+    }
+  if (!(sum > 0)) return std::nullopt;
+  float left = u * sum;
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < impl_->media.size(); ++i) {
+    if (!(amounts[i] > 0)) continue;
+    chosen = i;
+    if (left < amounts[i]) break;
+    left -= amounts[i];
+  }
+  const Medium& medium = impl_->media[chosen];
+  const float density_over_chance = sum / mean(medium.scattering);
+  return Scatterer{{p, medium.g, static_cast<std::uint32_t>(chosen), {}}, medium.scattering * density_over_chance};
+}
+
+Rgb Media::emission(const Vec3& p) const {
+  Rgb sum;
+  const std::uint32_t held = holding(p);
+  for (std::size_t i = 0; i < impl_->media.size(); ++i)
+    if (held >> i & 1 && !is_black(impl_->media[i].emission))
+      sum += impl_->media[i].emission * density_at(impl_->media[i], p);
+  return sum;
+}
+
+std::span<const Media::RayPoint> Media::sample_points(const Ray& ray, int count, Sampler& sampler) const {
+  constexpr int pieces = 16;  // of a span
+  struct Piece {
+    std::uint32_t medium;
+    float near, size, scattering, extinction, weight;
+  };
+  thread_local std::vector<Piece> along;
+  thread_local std::vector<RayPoint> points;
+  along.clear(), points.clear();
+  impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) {
+    const Medium& medium = impl_->media[span.medium];
+    const float size = (span.far - span.near) / pieces;
+    const float glow = is_black(medium.emission) ? 0 : std::max(mean(medium.extinction()), 1 / (span.far - span.near));
+    for (int i = 0; i < pieces; ++i) {
+      const float near = span.near + size * static_cast<float>(i);
+      const float density = impl_->roughly(medium, ray.origin + ray.direction * (near + size / 2));
+      along.push_back({span.medium, near, size, (mean(medium.scattering) + glow) * density,
+                       mean(medium.extinction()) * density, 0});
+    }
+  });
+  std::sort(along.begin(), along.end(), [](const Piece& a, const Piece& b) { return a.near < b.near; });
+  float depth = 0, total = 0;
+  for (Piece& p : along) {
+    const float within = p.extinction * p.size;
+    p.weight = p.scattering * p.size * std::exp(-depth) * (within > 1e-4f ? -std::expm1(-within) / within : 1.0f);
+    depth += within, total += p.weight;
+  }
+  if (!(total > 0)) return points;
+  const float shift = sampler.next();
+  float before = 0;
+  auto piece = along.begin();
+  for (int i = 0; i < count; ++i) {
+    const float at = total * (static_cast<float>(i) + shift) / static_cast<float>(count);
+    while (std::next(piece) != along.end() && at >= before + piece->weight) before += (piece++)->weight;
+    if (!(piece->weight > 0)) continue;
+    const float in_piece = std::clamp((at - before) / piece->weight, 0.0f, 1.0f);
+    const float distance = piece->near + in_piece * piece->size;
+    const Medium& medium = impl_->media[piece->medium];
+    const Vec3 p = ray.origin + ray.direction * distance;
+    const float density = density_at(medium, p);
+    points.push_back({distance,
+                      piece->size * total / (piece->weight * static_cast<float>(count)),
+                      {p, medium.g, piece->medium, {}},
+                      medium.scattering * density,
+                      medium.emission * density});
+  }
+  return points;
+}
+
+}  // namespace isophote

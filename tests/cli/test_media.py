@@ -1,0 +1,39 @@
+"""Media from scene files through the program: methods, records on disk, refusals."""
+from program import SCENES, ProgramTest, picture_channels, quick
+
+FOG = str(SCENES / "cornell-fog.toml")
+
+
+class Media(ProgramTest):
+    def test_records_in_media_are_counted_and_threads_change_nothing(self):
+        for threads in ("1", "2"):
+            stats = self.stats(FOG, *quick("--threads", threads, "-o", threads + ".exr", "--save-cache", threads))
+            self.assertEqual(stats["media"]["from"], "cache")
+            self.assertGreater(stats["media"]["records"]["media"], 0)
+        for ending in ("", ".exr"):
+            self.assertEqual((self.folder / ("1" + ending)).read_bytes(), (self.folder / ("2" + ending)).read_bytes())
+
+    def test_records_in_media_are_kept_and_taken_up_again(self):
+        first = self.stats(FOG, *quick("--save-cache", "records", "-o", "a.exr"))
+        again = self.stats(FOG, *quick("--load-cache", "records", "-o", "b.exr"))
+        for part in ("surfaces", "media"):
+            before, after = (s["media"]["records"][part] for s in (first, again))
+            self.assertGreaterEqual(after, before)
+            self.assertLessEqual(after, 1.1 * before + 2)
+        (a, _), (b, _) = (picture_channels(self.folder / name) for name in ("a.exr", "b.exr"))
+        mean = lambda values: sum(values) / len(values)
+        self.assertAlmostEqual(mean(a["G"]), mean(b["G"]), delta=0.02 * mean(a["G"]))
+
+    def test_paths_make_no_records_in_media(self):
+        stats = self.stats(FOG, *quick("--media", "paths", "-o", "a.exr"))
+        self.assertIsNone(stats["media"])
+
+    def test_what_does_not_go_together_is_refused(self):
+        for flags, text in (
+            (("--media", "paths", "--media-a", "0.5"), "--media-..."),
+            (("--media", "cache", "--order", "lazy", "--method", "bounded"), "--order lazy"),
+            (("--media", "cache", "--max-depth", "3"), "--max-depth"),
+            (("--media-estimator", "volume", "--media-metric", "volume-error"), "Hessian"),
+            (("--media", "somehow"), "cache or paths"),
+        ):
+            self.refused(2, ("render", FOG, *flags, "-o", "x.exr"), text)

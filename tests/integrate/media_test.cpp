@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "integrate/stage.h"
+#include "isophote/cache/volume_cache.h"
+#include "support/media.h"
+
+namespace isophote::test {
+namespace {
+
+Scene foggy_box(const Rgb& scattering, const Rgb& absorption, float g, float scale = 1) {
+  Scene scene = scenes::cornell_box(scale);
+  scene.media.push_back(
+      scenes::medium(scattering / scale, absorption / scale, {Vec3{-1, 0, -1} * scale, Vec3{1, 2, 1} * scale}, g));
+  return scene;
+}
+
+Job foggy_job(const Stage& stage, const char* name, int size, int samples) {
+  Job job = stage.job(method(name, 0.1), size, size, samples);
+  job.strata = Strata::about(200);
+  return job;
+}
+
+double level(const Job& job) {
+  const Rendered r = render_all(job);
+  return mean_luminance(r.layer("direct")) + mean_luminance(r.layer("indirect"));
+}
+
+TEST(MediaCaches, KeepTheMeanLevelInFog) {
+  const Stage stage(foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0));
+  const double paths = level(foggy_job(stage, "path", 32, 1024));
+  for (const char* name : {"jarosz2008a", "jarosz2008b", "marco2018", "cached"})
+    EXPECT_NEAR(level(foggy_job(stage, name, 32, 64)) / paths, 1, 0.02) << name;
+}
+
+TEST(MediaCaches, KeepTheMeanLevelWhereMediaScatterForwards) {
+  const Stage stage(foggy_box(Rgb(0.4f), Rgb(0.1f), 0.5f));
+  const double paths = level(foggy_job(stage, "path", 32, 1024));
+  EXPECT_NEAR(level(foggy_job(stage, "jarosz2008a", 32, 64)) / paths, 1, 0.02);
+}
+
+TEST(MediaCaches, SurfacesAreCachedRightWhereMediaAreLeftToPaths) {
+  const Stage stage(foggy_box(Rgb(0.4f), Rgb(0.1f), 0));
+  const double paths = level(foggy_job(stage, "path", 32, 1024));
+  Job job = foggy_job(stage, "bounded", 32, 512);
+  EXPECT_NEAR(level(job) / paths, 1, 0.02);
+}
+
+TEST(MediaCaches, ThreadsDoNotChangeThem) {
+  const Stage stage(foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0.3f));
+  for (const char* name : {"jarosz2008a", "cached"}) {
+    Job job = foggy_job(stage, name, 24, 2);
+    job.parallel = thread_for(1);
+    const Rendered serial = render_all(job);
+    EXPECT_GT(serial.cache.volumes()->media.records().size(), 0u);
+    for (const int threads : {2, 8}) {
+      job.parallel = thread_for(threads);
+      const Rendered other = render_all(job);
+      EXPECT_TRUE(exr_bytes(other.exr()) == exr_bytes(serial.exr())) << name << " on " << threads;
+      EXPECT_EQ(other.cache.volumes()->media.records().size(), serial.cache.volumes()->media.records().size());
+    }
+  }
+}
+
+TEST(MediaCaches, PowersOfTwoOfTheSizeDoNotChangeThem) {
+  const Stage base(foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0.3f)),
+      large(foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0.3f, 0x1p10f));
+  for (const char* name : {"path", "jarosz2008a"}) {
+    const Rendered a = render_all(foggy_job(base, name, 24, 2)), b = render_all(foggy_job(large, name, 24, 2));
+    EXPECT_EQ(a.layer("indirect").pixels, b.layer("indirect").pixels) << name;
+    EXPECT_EQ(a.layer("direct").pixels, b.layer("direct").pixels) << name;
+  }
+}
+
+TEST(MediaCaches, NothingLeaksIntoAClosedBox) {
+  // The camera stands in a closed black-lit box that hangs in bright fog.
+  Scene scene = foggy_box(Rgb(0.4f), Rgb(0.1f), 0);
+  scene.meshes.push_back(scenes::box({-0.4f, 1.25f, -0.4f}, {0.4f, 1.7f, 0.4f}, true, scene.meshes[0].material));
+  scene.cameras[0] = Camera::look_at({0, 1.5f, 0.35f}, {0, 1.5f, 0}, 1.2f);
+  scene.cameras.push_back(Camera::look_at({0, 1, 4}, {0, 1, 0}, 0.68f));
+  const Stage stage(std::move(scene));
+  Job job = foggy_job(stage, "jarosz2008a", 24, 2);
+  Rendered outside{Film(24, 24), empty_cache(job), empty_cache(job), {}, {}};
+  job.camera = stage.scene().cameras[1];
+  build_in_rounds(job, outside.cache);
+  job.camera = stage.scene().cameras[0];
+  render(job, &outside.cache, outside.film);
+  for (const Rgb& pixel : outside.layer("indirect").pixels) EXPECT_TRUE(is_black(pixel));
+}
+
+}  // namespace
+}  // namespace isophote::test
