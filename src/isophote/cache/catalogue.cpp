@@ -126,6 +126,11 @@ const RadiusBounds gradient_preset{.min_pixels = 1.5f, .gradient = true, .neighb
 const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = 1};
 const RadiusBounds volume_preset{.min_pixels = 1.5f, .neighbours = 1};
 constexpr float volume_aspect = 4;
+const VolumeMethod media_2008{InScattering::cache,
+                              &find_volume_estimator("volume-unaware"),
+                              &find_volume_metric("relative-change"),
+                              {.bounds = volume_preset},
+                              true};
 
 // One line a method. A new one needs its estimator or metric above, in a file of its own, and a line here.
 const Method method_table[] = {
@@ -177,11 +182,7 @@ const Method method_table[] = {
      .metric = &bounded,
      .settings = {.bounds = bounded_preset},
      .order = 1,
-     .volume = {InScattering::cache,
-                &find_volume_estimator("volume-unaware"),
-                &find_volume_metric("relative-change"),
-                {.bounds = volume_preset},
-                true}},
+     .volume = media_2008},
     {.name = "jarosz2008b",
      .paper = "[Jarosz 2008b]",
      .summary = "gradients of irradiance that know of media and occlusion; light in media as `jarosz2008a`",
@@ -189,11 +190,7 @@ const Method method_table[] = {
      .metric = &bounded,
      .settings = {.bounds = bounded_preset},
      .order = 1,
-     .volume = {InScattering::cache,
-                &find_volume_estimator("volume-unaware"),
-                &find_volume_metric("relative-change"),
-                {.bounds = volume_preset},
-                true}},
+     .volume = media_2008},
     {.name = "marco2018",
      .paper = "[Marco 2018]",
      .summary = "light in media by Hessians that see occluders, ellipsoids; surfaces as `schwarzhaupt2012`",

@@ -7,6 +7,7 @@
 #include "isophote/integrate/glossy_lobes.h"
 #include "isophote/integrate/glossy_rule.h"
 #include "isophote/integrate/leak_test.h"
+#include "isophote/integrate/over_pixels.h"
 #include "isophote/integrate/shade.h"
 
 namespace isophote {
@@ -61,21 +62,16 @@ void compare_at(const Job& job, const RadianceCache& cache, const FirstPoint& se
 }  // namespace
 
 void adapt_radii(const Job& job, RadianceCache& cache, int stride, int sample, RayCounts& counts) {
-  const auto rows = static_cast<std::size_t>((job.height + stride - 1 - stride / 2) / stride);
-  std::vector<std::vector<Limit>> limits(rows);
-  counts += for_each(job.parallel, rows, 1, [&](std::size_t row, RayCounts& mine) {
-    std::vector<Overlap> here;
-    const int y = stride / 2 + static_cast<int>(row) * stride;
-    for (int x = stride / 2; x < job.width; x += stride) {
-      Sampler stream = job.sampler(x, y, sample);
-      const FirstPoint seen = first_point(job.world.clear(), job.camera_ray(x, y, stream), true, stream, mine.camera);
-      if (seen.point) compare_at(job, cache, seen, here, limits[row], mine);
-    }
-  });
+  const auto look = [&](int x, int y, std::vector<Limit>& limits, RayCounts& mine) {
+    thread_local std::vector<Overlap> here;
+    Sampler stream = job.sampler(x, y, sample);
+    const FirstPoint seen = first_point(job.world.clear(), job.camera_ray(x, y, stream), true, stream, mine.camera);
+    if (seen.point) compare_at(job, cache, seen, here, limits, mine);
+  };
+  const auto limits = collect_over_pixels<Limit>(job, stride, counts, look);
   // Whatever the order, the least limit of a record is the one that counts.
   std::vector<float> least(cache.records().size(), 1.0f);
-  for (const auto& row : limits)
-    for (const Limit& limit : row) least[limit.id] = std::min(least[limit.id], limit.part);
+  for (const Limit& limit : limits) least[limit.id] = std::min(least[limit.id], limit.part);
   for (std::uint32_t id = 0; id < least.size(); ++id)
     if (least[id] < 1) cache.shrink(id, least[id]);
 }

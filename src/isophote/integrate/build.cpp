@@ -10,6 +10,7 @@
 #include "isophote/integrate/glossy_rule.h"
 #include "isophote/integrate/leak_test.h"
 #include "isophote/integrate/make_record.h"
+#include "isophote/integrate/over_pixels.h"
 #include "isophote/integrate/pick_spread.h"
 #include "isophote/integrate/pilot.h"
 #include "isophote/integrate/render.h"
@@ -115,22 +116,15 @@ class Builder {
 
   /// The uncovered points that sample `sample` of every stride-th pixel sees, by itself and reflected, ordered by key.
   std::vector<Candidate> uncovered(int stride, int sample) {
-    const auto columns = static_cast<std::size_t>((job_.width + stride - 1 - stride / 2) / stride);
-    const auto rows = static_cast<std::size_t>((job_.height + stride - 1 - stride / 2) / stride);
-    std::vector<std::vector<Candidate>> found(rows);
-    report_.rays += for_each(job_.parallel, rows, 1, [&](std::size_t row, RayCounts& counts) {
-      for (std::size_t column = 0; column < columns; ++column) {
-        const int x = stride / 2 + static_cast<int>(column) * stride, y = stride / 2 + static_cast<int>(row) * stride;
-        Sampler stream = job_.sampler(x, y, sample);
-        const FirstPoint seen =
-            first_point(job_.world.clear(), job_.camera_ray(x, y, stream), true, stream, counts.camera);
-        const std::uint64_t key = hash(job_.seed, x, y, sample);
-        add_uncovered(seen, key, found[row], counts);
-        if (shines(seen)) add_uncovered(reflected(seen, stream, counts), hash(key), found[row], counts);
-      }
-    });
-    std::vector<Candidate> all;
-    for (const auto& row : found) all.insert(all.end(), row.begin(), row.end());
+    const auto look = [&](int x, int y, std::vector<Candidate>& found, RayCounts& counts) {
+      Sampler stream = job_.sampler(x, y, sample);
+      const FirstPoint seen =
+          first_point(job_.world.clear(), job_.camera_ray(x, y, stream), true, stream, counts.camera);
+      const std::uint64_t key = hash(job_.seed, x, y, sample);
+      add_uncovered(seen, key, found, counts);
+      if (shines(seen)) add_uncovered(reflected(seen, stream, counts), hash(key), found, counts);
+    };
+    auto all = collect_over_pixels<Candidate>(job_, stride, report_.rays, look);
     std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.place.key < b.place.key; });
     return all;
   }

@@ -5,6 +5,7 @@
 
 #include "isophote/integrate/gather.h"
 #include "isophote/integrate/leak_test.h"
+#include "isophote/integrate/over_pixels.h"
 #include "isophote/integrate/pick_spread.h"
 
 namespace isophote {
@@ -50,31 +51,24 @@ void VolumeBuilder::finish() {
 }
 
 std::vector<VolumeBuilder::Candidate> VolumeBuilder::uncovered(int stride, int sample, RayCounts& rays) const {
-  const auto columns = (job_.width + stride - 1 - stride / 2) / stride;
-  const auto rows = static_cast<std::size_t>((job_.height + stride - 1 - stride / 2) / stride);
-  std::vector<std::vector<Candidate>> found(rows);
-  rays += for_each(job_.parallel, rows, 1, [&](std::size_t row, RayCounts& counts) {
-    for (int column = 0; column < columns; ++column) {
-      const int x = stride / 2 + column * stride, y = stride / 2 + static_cast<int>(row) * stride;
-      Sampler stream = job_.sampler(x, y, sample);
-      const Ray ray = job_.camera_ray(x, y, stream);
-      Hit hit;
-      ++counts.camera;
-      job_.world.rays.intersect(ray, stream.next_bits(), hit);
-      for (const Media::RayPoint& at :
-           job_.world.media->sample_points({ray.origin, ray.direction, 0, hit.distance}, 1, stream)) {
-        const std::uint32_t media = job_.world.media->holding(at.point.position);
-        Candidate c{at.point.position, media, job_.pixel_footprint(at.distance), hash(job_.seed, x, y, sample, 1)};
-        c.bands = bands_for(job_.world.media->anisotropy(media));
-        c.wants[0] = c.wants[1] = true;
-        if (!still_wants(c, counts)) continue;
-        meet_records(c);
-        found[row].push_back(c);
-      }
+  const Media& media = *job_.world.media;
+  const auto look = [&](int x, int y, std::vector<Candidate>& found, RayCounts& counts) {
+    Sampler stream = job_.sampler(x, y, sample);
+    const Ray ray = job_.camera_ray(x, y, stream);
+    Hit hit;
+    ++counts.camera;
+    job_.world.rays.intersect(ray, stream.next_bits(), hit);
+    for (const Media::RayPoint& at : media.sample_points({ray.origin, ray.direction, 0, hit.distance}, 1, stream)) {
+      const std::uint32_t held = media.holding(at.point.position);
+      Candidate c{at.point.position, held, job_.pixel_footprint(at.distance), hash(job_.seed, x, y, sample, 1)};
+      c.bands = bands_for(media.anisotropy(held));
+      c.wants[0] = c.wants[1] = true;
+      if (!still_wants(c, counts)) continue;
+      meet_records(c);
+      found.push_back(c);
     }
-  });
-  std::vector<Candidate> all;
-  for (const auto& row : found) all.insert(all.end(), row.begin(), row.end());
+  };
+  auto all = collect_over_pixels<Candidate>(job_, stride, rays, look);
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.key < b.key; });
   return all;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "isophote/integrate/in_scattering.h"
+#include "isophote/sampling/few_choice.h"
 
 namespace isophote {
 namespace {
@@ -29,20 +30,13 @@ struct Looked {
 /// One path for all shells of a ray that want one, at one of them, chosen by its weight.
 void follow_one_path(const World& world, std::span<const Looked> looked, const Vec3& direction, int depth,
                      Sampler& sampler, RayCounts& counts, std::span<GatherLayer> layers) {
-  float sum = 0;
-  for (const Looked& l : looked) sum += l.wants_path ? mean(l.weight) : 0;
-  if (!(sum > 0)) return;
-  float left = sampler.next() * sum;
-  std::size_t chosen = looked.size();
-  for (std::size_t i = 0; i < looked.size(); ++i) {
-    if (!looked[i].wants_path || !(mean(looked[i].weight) > 0)) continue;
-    chosen = i;
-    if (left < mean(looked[i].weight)) break;
-    left -= mean(looked[i].weight);
-  }
+  const FewChoice choice(looked.size(),
+                         [&](std::uint32_t l) { return looked[l].wants_path ? mean(looked[l].weight) : 0.0f; });
+  if (choice.empty()) return;
+  const std::uint32_t chosen = choice.sample(sampler.next());
   const Looked& at = looked[chosen];
   const Scattered scattered = scatter(world, at.point, direction, depth, sampler, counts);
-  layers[chosen].radiance += at.weight * scattered.indirect * (sum / mean(at.weight));
+  layers[chosen].radiance += at.weight * scattered.indirect / choice.chance(chosen);
 }
 
 }  // namespace

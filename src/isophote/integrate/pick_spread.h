@@ -6,15 +6,13 @@
 
 namespace isophote {
 
-/// Records in a round: a constant, so that the picture does not depend on the machine. Large enough to keep many
-/// threads busy.
-inline constexpr std::size_t batch_size = 64;
-
 /// The first candidates in order of which near(a, b) holds of no two, and a few more rather than leave threads idle;
 /// takes them out of the list.
 template <class Candidate, class Near>
 std::vector<Candidate> pick_spread(std::vector<Candidate>& candidates, Near&& near) {
-  constexpr std::size_t least_batch = 8;
+  // Records in a round: a constant, so that the picture does not depend on the machine. Large enough to keep many
+  // threads busy.
+  constexpr std::size_t batch_size = 64, least_batch = 8;
   std::vector<Candidate> picked;
   std::size_t i = 0, kept = 0;
   for (; i < candidates.size() && picked.size() < batch_size; ++i) {

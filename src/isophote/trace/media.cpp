@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "isophote/core/hash.h"
+#include "isophote/sampling/few_choice.h"
 #include "isophote/scene/density_grid.h"
 #include "isophote/trace/density_walk.h"
 #include "isophote/trace/medium_spans.h"
@@ -190,25 +191,15 @@ void Media::along(const Ray& ray, std::span<const float> depths, std::span<Passa
 
 std::optional<Media::Scatterer> Media::scatterer(const Vec3& p, float u) const {
   const std::uint32_t held = holding(p);
-  std::array<float, 32> amounts{};
-  float sum = 0;
-  for (std::size_t i = 0; i < impl_->media.size(); ++i)
-    if (held >> i & 1) {
-      const Medium& medium = impl_->media[i];
-      sum += amounts[i] = mean(medium.scattering) * density_at(medium, p);
-    }
-  if (!(sum > 0)) return std::nullopt;
-  float left = u * sum;
-  std::size_t chosen = 0;
-  for (std::size_t i = 0; i < impl_->media.size(); ++i) {
-    if (!(amounts[i] > 0)) continue;
-    chosen = i;
-    if (left < amounts[i]) break;
-    left -= amounts[i];
-  }
+  std::array<float, FewChoice::most> densities{};
+  const FewChoice choice(impl_->media.size(), [&](std::uint32_t i) {
+    if (held >> i & 1) densities[i] = density_at(impl_->media[i], p);
+    return mean(impl_->media[i].scattering) * densities[i];
+  });
+  if (choice.empty()) return std::nullopt;
+  const std::uint32_t chosen = choice.sample(u);
   const Medium& medium = impl_->media[chosen];
-  const float density_over_chance = sum / mean(medium.scattering);
-  return Scatterer{{p, medium.g, static_cast<std::uint32_t>(chosen), {}}, medium.scattering * density_over_chance};
+  return Scatterer{{p, medium.g, chosen, {}}, medium.scattering * (densities[chosen] / choice.chance(chosen))};
 }
 
 Rgb Media::emission(const Vec3& p) const {
