@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 /// Where things lie in a file: magic, version, scene, length of the settings, settings, survey with threshold, count,
 /// records; basis, count and records of radiance; count and records of media, twice; checksum.
 inline constexpr std::size_t settings_at = 24, survey_bytes = 17, record_bytes = 235, radiance_head_bytes = 9,
-                             radiance_record_bytes = 117, coefficient_bytes = 12, volume_record_bytes = 133;
+                             radiance_record_bytes = 117, coefficient_bytes = 12, volume_record_bytes = 177;
 /// Of a file without radiance and media, but for its settings and records.
 inline constexpr std::size_t empty_bytes = settings_at + survey_bytes + 4 * 8 + 1 + 8;
 
@@ -103,7 +103,7 @@ class RecordFileTest : public testing::Test {
       r.jet.hessian = {random.number(-1, 1), random.number(-1, 1), random.number(-1, 1),
                        random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
       r.jet.value_sum = random.number(0, 2), r.jet.gradient_sum = random.number(0, 2);
-      r.jet.nearest = bands == 1 ? infinity : random.number(0, 2);
+      if (bands > 1) r.jet.obstacles.meet(11, random.number(0, 2));
       r.jet.standard_error = random.number(0, 1);
       r.jet.rays = 2048;
       r.jet.distances.harmonic_mean = random.number(0, 2);

@@ -194,7 +194,7 @@ TEST_F(RecordFileTest, UnusableMediaWithARightChecksumAreRefused) {
       [&](VolumeRecord& r) { r.jet.hessian.yz = infinity; },
       [&](VolumeRecord& r) { r.jet.value_sum = -1; },
       [&](VolumeRecord& r) { r.jet.gradient_sum = nan; },
-      [&](VolumeRecord& r) { r.jet.nearest = -1; },
+      [&](VolumeRecord& r) { r.jet.obstacles.nearest[23] = 0x8001; },  // negative
       [&](VolumeRecord& r) { r.jet.standard_error = infinity; },
       [&](VolumeRecord& r) { r.jet.distances.harmonic_mean = nan; },
   };

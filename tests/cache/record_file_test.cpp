@@ -85,7 +85,7 @@ TEST_F(RecordFileTest, MediaAreKeptToo) {
       EXPECT_EQ(a.jet.hessian, b.jet.hessian);
       EXPECT_EQ(a.jet.value_sum, b.jet.value_sum);
       EXPECT_EQ(a.jet.gradient_sum, b.jet.gradient_sum);
-      EXPECT_EQ(a.jet.nearest, b.jet.nearest);
+      EXPECT_EQ(a.jet.obstacles, b.jet.obstacles);
       EXPECT_EQ(a.jet.standard_error, b.jet.standard_error);
       EXPECT_EQ(a.jet.gradient_error, b.jet.gradient_error);
       EXPECT_EQ(a.jet.rays, b.jet.rays);
@@ -102,13 +102,13 @@ TEST_F(RecordFileTest, MediaAreKeptToo) {
 TEST_F(RecordFileTest, IsLittleEndianAndVersioned) {
   write_records(path_, sample(1));
   const std::string content = bytes();
-  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\7\0\0\0", 12));
+  EXPECT_EQ(content.substr(0, 12), std::string("ISOPHREC\10\0\0\0", 12));
   EXPECT_EQ(static_cast<unsigned char>(content[12]), 0xef);  // the scene's lowest byte
-  for (const unsigned other : {6u, 8u}) {
+  for (const unsigned other : {7u, 9u}) {
     std::string crafted = content;
     put_integer(crafted, 8, other, 4);
     put_signed(crafted);
-    EXPECT_EQ(refusal(), "has version " + std::to_string(other) + ", this program reads 7");
+    EXPECT_EQ(refusal(), "has version " + std::to_string(other) + ", this program reads 8");
   }
 }
 

@@ -194,7 +194,7 @@ TEST(VolumeCache, OnlyTheSameMediaAreServed) {
 TEST(VolumeCache, AsksWhatStandsBetweenOnlyBeyondWhatWasSeen) {
   VolumeCache cache(room);
   VolumeRecord near = volume_record({1, 1, 1}, 1, Rgb(5));
-  near.jet.nearest = 0.5f;
+  for (int i = 0; i < ObstaclesAround::sectors; ++i) near.jet.obstacles.meet(i, 0.5f);
   cache.insert(near);
   cache.insert(volume_record({1, 1.5f, 1}, 1, Rgb(1)));  // saw nothing near
   int asked = 0, expected = 0;

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
+#include "isophote/derivatives/sphere_gather.h"
 #include "isophote/derivatives/ward_heckbert_1992.h"
 #include "support/records.h"
 
@@ -149,6 +151,42 @@ TEST(Obstacles, OfThreeStrataEachCountsAllRound) {
   RandomPlaces random(17);
   const HemisphereGather gather = gather_of({0, 0, 1}, {1, 3}, random, [](const Vec3&) { return 2.0f; });
   for (int i = 0; i < Obstacles::sectors; ++i) EXPECT_LE(obstacles(gather).distance(i), 2);
+}
+
+/// A gather at the origin of a plate in the plane x = 1, with |y|, |z| < 0.5, before the sky.
+SphereGather plate_in_the_sky(SphereStrata strata) {
+  SphereGather gather;
+  gather.strata = strata;
+  for (int j = 0; j < strata.polar; ++j)
+    for (int k = 0; k < strata.azimuthal; ++k) {
+      const Vec3 w = strata.direction(j, k, {0.5f, 0.5f});
+      const bool met = w.x > 0 && std::abs(w.y) < 0.5f * w.x && std::abs(w.z) < 0.5f * w.x;
+      gather.samples.push_back({w, met ? 1 / w.x : infinity, Rgb(1), {-1, 0, 0}, 0});
+    }
+  return gather;
+}
+
+TEST(Obstacles, AroundAPlace) {
+  RandomPlaces random(19);
+  for (const SphereStrata strata : {SphereStrata{10, 20}, SphereStrata{20, 40}, SphereStrata{41, 83}}) {
+    const ObstaclesAround seen = obstacles(plate_in_the_sky(strata));
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 q = random.point({-2, -2, -2}, {2, 2, 2});
+      const bool hidden = q.x > 1 && std::abs(q.y) < 0.5f * q.x && std::abs(q.z) < 0.5f * q.x;
+      EXPECT_TRUE(seen.before(q) || !hidden);
+      const bool free = q.x < 0.25f * std::max(std::abs(q.y), std::abs(q.z)) || length(q) < 0.79f;
+      EXPECT_FALSE(seen.before(q) && free);
+    }
+  }
+  EXPECT_FALSE(ObstaclesAround{}.before({1e6f, 0, 0}));
+}
+
+TEST(Obstacles, SectorsAroundAPlaceAreAboutAsLarge) {
+  std::array<int, ObstaclesAround::sectors> counts{};
+  constexpr SphereStrata strata{120, 240};
+  for (int j = 0; j < strata.polar; ++j)
+    for (int k = 0; k < strata.azimuthal; ++k) ++counts[ObstaclesAround::sector(strata.direction(j, k, {0.5f, 0.5f}))];
+  for (const int count : counts) EXPECT_NEAR(24.0 * count / strata.size(), 1, 0.02);
 }
 
 }  // namespace

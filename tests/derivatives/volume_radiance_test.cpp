@@ -66,7 +66,8 @@ TEST(VolumeRadiance, SumsMagnitudes) {
       EXPECT_EQ(other.standard_error, jet.standard_error);
     }
     EXPECT_EQ(jet.rays, 32u * 64);
-    EXPECT_NEAR(jet.nearest, 0.6, 0.01);
+    EXPECT_TRUE(jet.obstacles.before({-0.55f, 0, 0}));  // the wall is 0.6 away
+    EXPECT_FALSE(jet.obstacles.before({0.55f, 0, 0}));
   }
 }
 
@@ -85,7 +86,7 @@ TEST(VolumeRadiance, MagnitudesDoNotCancel) {
   EXPECT_NEAR(jet.gradient_sum, 1, 1e-6);  // 3 w / r - w / r of each
   EXPECT_NEAR(jet.value_sum, 1, 1e-6);
   EXPECT_EQ(jet.standard_error, 0);
-  EXPECT_EQ(jet.nearest, 2);
+  EXPECT_EQ(jet.obstacles.distance(7), 2);
   for (const auto* along : {&walls.translational.x, &walls.translational.y, &walls.translational.z})
     for (const Rgb& c : *along) EXPECT_EQ(c, Rgb());
 }

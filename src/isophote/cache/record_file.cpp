@@ -19,7 +19,7 @@ namespace isophote {
 namespace {
 
 constexpr char magic[8] = {'I', 'S', 'O', 'P', 'H', 'R', 'E', 'C'};
-constexpr std::uint32_t version = 7;
+constexpr std::uint32_t version = 8;
 
 using namespace record_transfer;
 

@@ -63,12 +63,16 @@ void transfer(Stream& io, Sym3& m) {
   io(m.xx), io(m.xy), io(m.xz), io(m.yy), io(m.yz), io(m.zz);
 }
 
+template <class Stream, int sectors>
+void transfer(Stream& io, NearestBySector<sectors>& obstacles) {
+  for (std::uint16_t& sector : obstacles.nearest) io(sector);
+  obstacles.least = *std::min_element(obstacles.nearest.begin(), obstacles.nearest.end());
+}
+
 template <class Stream>
 void transfer(Stream& io, DistanceStats& distances) {
   io(distances.harmonic_mean);
-  Obstacles& obstacles = distances.obstacles;
-  for (std::uint16_t& sector : obstacles.nearest) io(sector);
-  obstacles.least = *std::min_element(obstacles.nearest.begin(), obstacles.nearest.end());
+  transfer(io, distances.obstacles);
 }
 
 template <class Stream>
@@ -116,7 +120,8 @@ void transfer_head(Stream& io, VolumeRecord& r, std::uint8_t& bands, bool& has_g
   io(r.media), io(r.jet.rays);
   io(r.jet.standard_error), io(r.jet.gradient_error);
   transfer(io, r.jet.hessian);
-  io(r.jet.value_sum), io(r.jet.gradient_sum), io(r.jet.nearest), io(r.jet.distances.harmonic_mean);
+  io(r.jet.value_sum), io(r.jet.gradient_sum), io(r.jet.distances.harmonic_mean);
+  transfer(io, r.jet.obstacles);
   io(bands), io(has_gradient);
 }
 /// And the rest; the vectors have their sizes already.

@@ -23,10 +23,15 @@ bool shaped(const Footprint& f) {
   return xx > 0 && minor > 0 && determinant > 0 && std::isfinite(determinant);
 }
 
+template <int sectors>
+bool sound(const NearestBySector<sectors>& obstacles) {
+  for (int i = 0; i < sectors; ++i)
+    if (!within(obstacles.distance(i), 0, infinity)) return false;
+  return true;
+}
+
 bool sound(const DistanceStats& distances) {
-  for (int i = 0; i < Obstacles::sectors; ++i)
-    if (!within(distances.obstacles.distance(i), 0, infinity)) return false;
-  return within(distances.harmonic_mean, 0, infinity);
+  return sound(distances.obstacles) && within(distances.harmonic_mean, 0, infinity);
 }
 
 /// Irradiance that interpolation can add up: bounded wherever the record serves, and nowhere negative at its place.
@@ -91,8 +96,8 @@ bool usable(const VolumeRecord& r) {
   const float radius = r.footprint.radius;
   if (!(usable(static_cast<const Site&>(r)) && r.normal == Vec3{} && r.footprint.order < 2)) return false;
   const bool summed = within(jet.standard_error, 0, most) && within(jet.gradient_error, 0, infinity) &&
-                      within(jet.value_sum, 0, most) && within(jet.gradient_sum, 0, most) &&
-                      within(jet.nearest, 0, infinity) && within(jet.distances.harmonic_mean, 0, infinity);
+                      within(jet.value_sum, 0, most) && within(jet.gradient_sum, 0, most) && sound(jet.obstacles) &&
+                      within(jet.distances.harmonic_mean, 0, infinity);
   const Rgb& mean = jet.value[0];
   return summed && std::isfinite(norm(Sym3d(jet.hessian))) && mean.r >= 0 && mean.g >= 0 && mean.b >= 0 &&
          bounded(jet.value, 1) && bounded(g.x, radius) && bounded(g.y, radius) && bounded(g.z, radius);

@@ -61,9 +61,7 @@ float serving_error(const VolumeRecord& record, const VolumeQuery& query, Volume
   const Vec3 q = query.position - record.position;
   const float distance = quadratic_form(record.footprint.shape, q);
   if (!(distance < 1)) return infinity;
-  constexpr float margin = 0.8f;  // what it saw may reach nearer than where its rays, which are few, met it
-  const float near = margin * record.jet.nearest;
-  if (length_squared(q) > near * near && !open(record, query)) return infinity;
+  if (record.jet.obstacles.before(q) && !open(record, query)) return infinity;
   return std::sqrt(distance);
 }
 

@@ -1,6 +1,6 @@
 #include "isophote/derivatives/obstacles.h"
 
-#include "isophote/derivatives/gather.h"
+#include "isophote/derivatives/sphere_gather.h"
 
 namespace isophote {
 namespace {
@@ -36,6 +36,17 @@ Obstacles obstacles(const HemisphereGather& gather) {
         s.azimuthal > 3 ? (sector_at(gather, k + 2) - first + all) % all : all - 1;  // of 3, all are neighbours
     for (int i = 0; i <= more; ++i) result.meet((first + i) % all, nearest);
   }
+  return result;
+}
+
+ObstaclesAround obstacles(const SphereGather& gather) {
+  const SphereStrata& s = gather.strata;
+  ObstaclesAround result;
+  for (int j = 0; j < s.polar; ++j)
+    for (int k = 0; k < s.azimuthal; ++k)
+      for (int beside_j = std::max(j - 1, 0); beside_j <= std::min(j + 1, s.polar - 1); ++beside_j)
+        for (int beside_k = k - 1; beside_k <= k + 1; ++beside_k)
+          result.meet(ObstaclesAround::sector(s.direction(beside_j, beside_k, {0.5f, 0.5f})), gather.at(j, k).distance);
   return result;
 }
 

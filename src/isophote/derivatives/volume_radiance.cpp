@@ -47,8 +47,8 @@ VolumeJet unweighed_jet(const SphereGather& gather, VolumePart part) {
     value += seen.back() / n;
     gradient += length(luminance_of(ray.fixed)) / n;
     inverse_distances += 1 / static_cast<double>(gather.samples[i].distance);
-    jet.nearest = std::min(jet.nearest, gather.samples[i].distance);
   }
+  jet.obstacles = obstacles(gather);
   jet.value_sum = static_cast<float>(value), jet.gradient_sum = static_cast<float>(gradient);
   double variance = 0;
   for (const double v : stratum_variances(seen, gather.strata.polar, gather.strata.azimuthal)) variance += v;

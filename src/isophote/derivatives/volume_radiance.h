@@ -14,7 +14,7 @@ struct VolumeJet : Jet<Coefficients> {
   /// Luminance of the mean radiance, sample by sample, and the magnitudes of its gradient, likewise: a sample's layers
   /// are summed before its magnitude is taken [Jarosz 2008a].
   float value_sum = 0, gradient_sum = 0;
-  float nearest = infinity;  ///< distance of the nearest surface seen
+  ObstaclesAround obstacles;  ///< surfaces seen
 };
 
 /// What of a gather is meant: light of surfaces and the sky (layer 0), or of media (the shells).
