@@ -79,7 +79,7 @@ void gather_layers(const World& world, const FarLight& from, const Ray& ray, con
     Looked& here = looked[l];
     here.point = scatterer->point;
     here.weight = scatterer->scattering * passages[l].transmittance * (end - begin);
-    Rgb source = direct_light(world, here.point, ray.direction, sampler, counts, &here.slope);
+    Rgb source = direct_light(world, here.point, ray.direction, PunctualKinds::all, sampler, counts, &here.slope);
     const auto indirect = cached_in_scattering(world, from, here.point, ray.direction, counts);
     here.wants_path = !indirect;
     if (indirect) source += *indirect;

@@ -1,6 +1,7 @@
 #include "isophote/integrate/march.h"
 
 #include "isophote/integrate/in_scattering.h"
+#include "isophote/trace/placed_lights.h"
 
 namespace isophote {
 
@@ -8,13 +9,15 @@ Marched march(const World& world, const FarLight& from, const Ray& way, int dept
               RayCounts& counts) {
   constexpr int points = 2;
   Marched out;
+  if (depth < world.max_depth) out.direct = placed_lights_along(world, way, {}, sampler, counts);
   for (const Media::RayPoint& at : world.media->sample_points(way, points, sampler)) {
     const Ray before{way.origin, way.direction, way.near, at.distance};
     const Rgb weight = world.media->transmittance(before, sampler.next_bits()) * at.length;
     out.direct += weight * at.emission;
     if (depth >= world.max_depth || is_black(at.scattering)) continue;
     if (const auto indirect = cached_in_scattering(world, from, at.point, way.direction, counts)) {
-      out.direct += weight * at.scattering * direct_light(world, at.point, way.direction, sampler, counts);
+      out.direct += weight * at.scattering *
+                    direct_light(world, at.point, way.direction, PunctualKinds::directional, sampler, counts);
       out.indirect += weight * at.scattering * *indirect;
     } else {
       const Scattered path = scatter(world, at.point, way.direction, depth, sampler, counts);

@@ -153,6 +153,13 @@ LightSample Emitters::sample_punctual(int i, const Vec3& from, float u) const {
   return impl_->punctual.sample(i, from, u);
 }
 
+Emitters::Punctual Emitters::choose_punctual(int i, float u) const {
+  const PunctualLights::Chosen chosen = impl_->punctual.choose(i, u);
+  return {chosen.light, chosen.chance};
+}
+
+bool Emitters::has_placed() const { return impl_->punctual.has_placed(); }
+
 float Emitters::triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direction, Among among) const {
   const std::uint32_t first = impl_->first_of_mesh[hit.mesh];
   if (first == none || impl_->table(among).empty()) return 0;

@@ -49,6 +49,13 @@ class Emitters {
   int punctual_samples() const;
   /// The i-th of them. Their light and that of `sample` add up.
   LightSample sample_punctual(int i, const Vec3& from, float u) const;
+  /// The i-th of them by itself, wherever it shines, and the chance of the choice; and is any a point or spot light?
+  struct Punctual {
+    const PunctualLight* light = nullptr;
+    float chance = 1;
+  };
+  Punctual choose_punctual(int i, float u) const;
+  bool has_placed() const;
 
   /// The density (solid angle) with which `sample` gives the direction in which the triangle of `hit` was met. Above 0
   /// wherever the triangle shines on `from`.

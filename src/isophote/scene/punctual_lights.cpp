@@ -32,7 +32,9 @@ float spot_falloff(const PunctualLight& light, const Vec3& towards_light) {
       std::clamp((dot(light.direction, -towards_light) - outer) / std::max(0.001f, inner - outer), 0.0f, 1.0f));
 }
 
-LightSample sample_one(const PunctualLight& light, const Vec3& from) {
+}  // namespace
+
+LightSample punctual_light_at(const PunctualLight& light, const Vec3& from) {
   if (light.kind == PunctualLight::Kind::directional)
     return {-light.direction, infinity, light.intensity, 1, true, true};
   const Vec3 offset = light.position - from;
@@ -44,8 +46,6 @@ LightSample sample_one(const PunctualLight& light, const Vec3& from) {
   return {direction, distance, light.intensity * (falloff / square(distance)), 1, true, true, light.position};
 }
 
-}  // namespace
-
 PunctualLights::PunctualLights(const Scene& scene) : lights_(scene.lights) {
   const Box bounds = scene.bounds();
   const double radius = bounds.empty() ? 1.0 : 0.5 * bounds.diagonal();
@@ -53,6 +53,8 @@ PunctualLights::PunctualLights(const Scene& scene) : lights_(scene.lights) {
   for (const PunctualLight& light : lights_) powers.push_back(power(light, radius));
   share_alike(std::span(powers));
   by_power_ = AliasTable(powers);
+  has_placed_ = std::any_of(lights_.begin(), lights_.end(),
+                            [](const PunctualLight& l) { return l.kind != PunctualLight::Kind::directional; });
 }
 
 int PunctualLights::samples() const {
@@ -61,20 +63,26 @@ int PunctualLights::samples() const {
 }
 
 LightSample PunctualLights::sample(int i, const Vec3& from, float u) const {
-  if (lights_.size() <= few) return sample_one(lights_[static_cast<std::size_t>(i)], from);
+  if (lights_.size() <= few) return punctual_light_at(lights_[static_cast<std::size_t>(i)], from);
   if (lights_.size() <= FewChoice::most) return sample_by_irradiance(from, u);
   const std::uint32_t chosen = by_power_.sample(u);
-  LightSample sample = sample_one(lights_[chosen], from);
+  LightSample sample = punctual_light_at(lights_[chosen], from);
   sample.pdf *= by_power_.probability(chosen);
   return sample;
 }
 
+PunctualLights::Chosen PunctualLights::choose(int i, float u) const {
+  if (lights_.size() <= few) return {&lights_[static_cast<std::size_t>(i)], 1};
+  const std::uint32_t chosen = by_power_.sample(u);
+  return {&lights_[chosen], by_power_.probability(chosen)};
+}
+
 LightSample PunctualLights::sample_by_irradiance(const Vec3& from, float u) const {
   const FewChoice choice(lights_.size(),
-                         [&](std::uint32_t i) { return max_component(sample_one(lights_[i], from).radiance); });
+                         [&](std::uint32_t i) { return max_component(punctual_light_at(lights_[i], from).radiance); });
   if (choice.empty()) return {};  // infinite on the very place of a light
   const std::uint32_t chosen = choice.sample(u);
-  LightSample sample = sample_one(lights_[chosen], from);
+  LightSample sample = punctual_light_at(lights_[chosen], from);
   sample.pdf *= choice.chance(chosen);
   return sample;
 }

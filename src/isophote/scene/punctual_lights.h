@@ -21,12 +21,24 @@ class PunctualLights {
   /// each would give if nothing hid it, of more by power, with a tenth of the choice to all alike. `pdf` is the chance
   /// of the choice; 0 where the light does not shine on `from`.
   LightSample sample(int i, const Vec3& from, float u) const;
+  /// The i-th of them by itself, for whatever place: where lights are many, by power.
+  struct Chosen {
+    const PunctualLight* light = nullptr;
+    float chance = 1;
+  };
+  Chosen choose(int i, float u) const;
+  /// Have any a place, as point and spot lights do?
+  bool has_placed() const { return has_placed_; }
 
  private:
   LightSample sample_by_irradiance(const Vec3& from, float u) const;
 
   const std::vector<PunctualLight>& lights_;
   AliasTable by_power_;
+  bool has_placed_ = false;
 };
+
+/// What a light sends to `from`, alone.
+LightSample punctual_light_at(const PunctualLight& light, const Vec3& from);
 
 }  // namespace isophote

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "isophote/trace/placed_lights.h"
 #include "isophote/trace/shadow.h"
 
 namespace isophote {
@@ -17,8 +18,15 @@ bool survives(Rgb& throughput, int events, Sampler& sampler) {
   return true;
 }
 
-/// Lets media act on a ray up to its end; true where one scatters it: the ray goes no further.
-bool scattered_on_the_way(const World& world, const Ray& ray, const Rgb& inside, Sampler& sampler, FirstPoint& first) {
+/// Lets media act on a ray up to its end, before which `depth` events happened; true where one scatters it: the ray
+/// goes no further.
+bool scattered_on_the_way(const World& world, const Ray& ray, const Rgb& inside, int depth, Sampler& sampler,
+                          std::uint64_t& kind, FirstPoint& first) {
+  if (depth < world.max_depth) {
+    RayCounts shadows;
+    first.emission += first.throughput * placed_lights_along(world, ray, inside, sampler, shadows);
+    kind += shadows.total();
+  }
   first.medium_point = world.media->collide(ray, sampler, first.throughput, first.emission);
   if (!first.medium_point) return false;
   const float way = length(first.medium_point->position - ray.origin);
@@ -54,7 +62,8 @@ Arrival follow(const World& world, const Ray& start, Rgb inside, int depth, Samp
       first.first_mesh = hit.mesh;
     }
     const bool in_media = world.media && !(straight && first_segment == FirstSegment::clear);
-    if (in_media && scattered_on_the_way(world, {ray.origin, ray.direction, 0, hit.distance}, inside, sampler, first))
+    if (in_media && scattered_on_the_way(world, {ray.origin, ray.direction, 0, hit.distance}, inside,
+                                         depth + first.depth, sampler, kind, first))
       return arrival;
     if (!met) {
       const Emitters::Sky sky = world.emitters.environment(ray.direction);

@@ -31,7 +31,8 @@ struct Incident {
 /// of the incident light, nothing in its way, decides whether a shadow ray is worth it.
 template <class Point, class Scatters, class Add>
 void sample_lights(const World& world, const Point& point, float u_choice, Vec2 u, std::uint32_t seed,
-                   Emitters::Among among, RayCounts& counts, const Scatters& scatters, const Add& add) {
+                   Emitters::Among among, PunctualKinds kinds, RayCounts& counts, const Scatters& scatters,
+                   const Add& add) {
   const auto take = [&](const LightSample& light) {
     if (!(light.pdf > 0) || is_black(light.radiance) || !scatters_from(point, light.direction)) return;
     Incident incident{light.direction, light.radiance / light.pdf, light.delta ? 0.0f : light.pdf,
@@ -42,7 +43,10 @@ void sample_lights(const World& world, const Point& point, float u_choice, Vec2 
   };
   const Emitters& emitters = world.emitters;
   if (!emitters.empty(among)) take(emitters.sample(point.position, u_choice, u, among));
-  for (int i = 0; i < emitters.punctual_samples(); ++i) take(emitters.sample_punctual(i, point.position, u_choice));
+  for (int i = 0; i < emitters.punctual_samples(); ++i) {
+    const LightSample light = emitters.sample_punctual(i, point.position, u_choice);
+    if (kinds == PunctualKinds::all || light.distance == infinity) take(light);
+  }
 }
 
 /// The density with which light sampling would have taken the direction of a ray that brought `arrival`.

@@ -85,6 +85,14 @@ std::uint32_t Media::holding(const Vec3& p) const {
   return bits;
 }
 
+Ray Media::within(const Ray& ray) const {
+  Ray part{ray.origin, ray.direction, ray.far, ray.near};
+  impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) {
+    part.near = std::min(part.near, span.near), part.far = std::max(part.far, span.far);
+  });
+  return part;
+}
+
 float Media::anisotropy(std::uint32_t media) const {
   float most = 0;
   for (std::size_t i = 0; i < impl_->media.size(); ++i)

@@ -30,6 +30,8 @@ class Media {
 
   /// Bit i: the i-th medium's bounds hold `p`.
   std::uint32_t holding(const Vec3& p) const;
+  /// The shortest part of a ray that has all that lies in media; near not below far where nothing does.
+  Ray within(const Ray& ray) const;
   /// The largest |g| of media, by their bits.
   float anisotropy(std::uint32_t media) const;
 

@@ -35,7 +35,8 @@ struct RayCounts {
 struct FirstPoint {
   std::optional<SurfacePoint> point;  ///< neither: the ray left the scene, died or met only specular surfaces
   std::optional<MediumPoint> medium_point;
-  Rgb emission;           ///< radiance emitted towards the ray's origin along the way and at the point, tinted
+  Rgb emission;           ///< radiance emitted towards the ray's origin along the way and at the point, tinted; with
+                          ///< the light of point and spot lights that media scatter once on the way
   Rgb throughput{1.0f};   ///< of the specular surfaces and the media before the point
   Vec3 direction;         ///< of the last segment
   float path_length = 0;  ///< from the origin, over all segments
@@ -55,7 +56,8 @@ enum class FirstSegment : std::uint8_t { in_media, clear };
 /// chance, which `throughput` makes up for: what scatters at the point is its diffuse and glossy lobes. `emission`
 /// counts directly sampled emitters (lamps, the environment's peaks) met before any specular event only where
 /// `see_lamps`; whatever is met after one counts always (no light sample could have found it). `kind` is the counter to
-/// charge; `inside` the absorption (1/m) of the medium that the ray starts in.
+/// charge, shadow rays to point and spot lights from media included; `inside` the absorption (1/m) of the medium that
+/// the ray starts in.
 FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind,
                        const Rgb& inside = {}, FirstSegment first_segment = FirstSegment::in_media);
 
@@ -66,12 +68,17 @@ struct Scattered {
   Rgb direct, indirect, irradiance;
 };
 
+/// Which punctual lights are meant. In media, point and spot lights have an estimator of their own: what `first_point`
+/// says is emitted along a ray contains their light that media scatter there once (`placed_lights_along`).
+enum class PunctualKinds : std::uint8_t { all, directional };
+
 /// One-path estimate by next-event estimation, multiple importance sampling and Russian roulette, unbiased.
 /// `depth` is the number of scattering events before this one.
 Scattered scatter(const World& world, const SurfacePoint& point, const Vec3& wo, int depth, Sampler& sampler,
                   RayCounts& counts);
 
-/// The same in a medium, of which there is no irradiance; `direction` is that of the ray from the viewer.
+/// The same in a medium, without what point and spot lights scatter here directly; there is no irradiance. `direction`
+/// is that of the ray from the viewer.
 Scattered scatter(const World& world, const MediumPoint& point, const Vec3& direction, int depth, Sampler& sampler,
                   RayCounts& counts);
 
@@ -84,8 +91,8 @@ Rgb direct_light(const World& world, const SurfacePoint& point, const Vec3& wo, 
 
 /// Light of directly sampled emitters that a medium scatters once, by light sampling alone: radiance on the way back
 /// along a ray of `direction`. `slope`, if given, is increased by its gradient on the sphere of directions.
-Rgb direct_light(const World& world, const MediumPoint& point, const Vec3& direction, Sampler& sampler,
-                 RayCounts& counts, Gradient<Rgb>* slope = nullptr);
+Rgb direct_light(const World& world, const MediumPoint& point, const Vec3& direction, PunctualKinds kinds,
+                 Sampler& sampler, RayCounts& counts, Gradient<Rgb>* slope = nullptr);
 
 /// One ray of the glossy lobe. `direct`: the glossy lobe's light from directly sampled emitters (light sampling and
 /// this ray share by MIS). `next` is where the ray goes on, with `next.emission` free of what `direct` holds; indirect
