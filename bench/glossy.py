@@ -1,12 +1,11 @@
 """Glossy surfaces: radiance caching against paths and against rays that read irradiance alone; its gradients; its memory."""
 import json
 import math
-import statistics
 import struct
 import subprocess
 
 import png
-from measure import BUILD, PROGRAM, ROOT, View, cost, error, percent, render, root_mean_square, table
+from measure import BUILD, PROGRAM, ROOT, Point, View, cost, percent, render, table
 from plot import log_log
 
 SCENE = ROOT / "scenes" / "glossy-room.glb"
@@ -41,27 +40,10 @@ def view_of(roughness, camera="front"):
     return View(f"glossy-room-{roughness}-{camera}", with_roughness(roughness), SIZE, REFERENCE, camera)
 
 
-class Point:
-    """Pictures of some seeds: CPU seconds and records in the mean, errors of the colours by root mean square, and bias in the mean."""
-
-    def __init__(self, view, *flags, seeds=SEEDS[:1]):
-        each = [self._one(view, *flags, "--seed", seed) for seed in seeds]
-        self.stats = each[0][0]
-        self.records = round(statistics.mean(s["glossy"]["records"] for s, _ in each)) if self.stats.get("glossy") else ""
-        self.cpu, self.final = statistics.mean(cost(s) for s, _ in each), statistics.mean(s["cpu_seconds"]["final"] for s, _ in each)
-        self.rmse, self.block = (root_mean_square([e[key] for _, e in each]) for key in ("relative_rmse", "block_error"))
-        self.bias = statistics.mean(e["bias"] for _, e in each)
-
+class GlossyPoint(Point):
     @staticmethod
-    def _one(view, *flags):
-        picture = BUILD / "glossy.exr"
-        stats = render(view, *flags, "--no-check", output=picture)
-        errors = error(view, picture, "")
-        picture.unlink()
-        return stats, errors
-
-    def row(self, *names):
-        return [*names, self.records, f"{self.cpu:.1f}", percent(self.rmse), percent(self.block), f"{100 * self.bias:+.2f}"]
+    def records_of(stats):
+        return stats["glossy"]["records"] if stats.get("glossy") else None
 
 
 HEADER = ("records of radiance", "CPU s", "RMSE %", "block %", "bias %")
@@ -79,13 +61,13 @@ def cost_of_rays(few, many, rmse):
 
 def roughness_rows(roughness, series):
     view = view_of(roughness)
-    path = Point(view, "--method", "path", "--spp", SAMPLES)
-    rays = [Point(view, "--glossy", "rays", "--spp", samples) for samples in (SAMPLES, 4 * SAMPLES)]
+    path = GlossyPoint(view, "--method", "path", "--spp", SAMPLES)
+    rays = [GlossyPoint(view, "--glossy", "rays", "--spp", samples) for samples in (SAMPLES, 4 * SAMPLES)]
     rows = [[*p.row(roughness, name), "", ""]
             for name, p in ((f"path, {SAMPLES} samples", path), (f"rays, {SAMPLES} samples", rays[0]), (f"rays, {4 * SAMPLES} samples", rays[1]))]
     curve = []
     for asked, samples in ERRORS:
-        p = Point(view, "--glossy", "auto", "--error", asked, "--spp", samples, seeds=SEEDS)
+        p = GlossyPoint(view, "--glossy", "auto", "--error", asked, "--spp", samples, seeds=SEEDS)
         gain = path.cpu * (path.rmse / p.rmse) ** 2 / p.cpu
         over_rays = cost_of_rays(*rays, p.rmse) / p.cpu
         rows.append([*p.row(roughness, f"cached, error {asked}, {samples} samples"), f"{gain:.1f}",
@@ -109,7 +91,7 @@ def gradients():
     for name, estimator in GRADIENTS.items():
         flags = ("--method", "krivanek2005b", "--glossy-estimator", estimator, "--glossy-a", 0.5, "--rays", 3200, "--error", 0.03, "--spp", 16,
                  "--secondary", "records")
-        rows.append(Point(view, *flags).row(name))
+        rows.append(GlossyPoint(view, *flags).row(name))
         cells.append(shown(view, name, *flags))
     cells.append(shown(view, "paths", "--method", "path", "--spp", REFERENCE))
     png.sheet(ROOT / "docs" / "figures" / "glossy-gradients.png", [cells])
@@ -120,12 +102,12 @@ def adaptive():
     """Radii that adapt, against as many records of smaller ones that do not."""
     view = view_of(0.65, "floor")
     flags = ("--method", "krivanek2006", "--rays", 3200, "--error", 0.03, "--spp", 16, "--secondary", "records")
-    return [Point(view, *flags, "--glossy-contrast", contrast, "--glossy-a", a).row(contrast, a) for contrast, a in ((0, 0.5), (0.1, 0.5), (0, 0.44))]
+    return [GlossyPoint(view, *flags, "--glossy-contrast", contrast, "--glossy-a", a).row(contrast, a) for contrast, a in ((0, 0.5), (0.1, 0.5), (0, 0.44))]
 
 
 def windows():
     view = view_of(0.65, "floor")
-    return [Point(view, "--error", 0.03, "--spp", 32, "--glossy-window", window).row(window) for window in ("off", "on")]
+    return [GlossyPoint(view, "--error", 0.03, "--spp", 32, "--glossy-window", window).row(window) for window in ("off", "on")]
 
 
 def lobes():
@@ -142,7 +124,7 @@ def ramp():
     view = View("glossy-ramp", RAMP, SIZE, REFERENCE, "front")
     cells = [shown(view, "cached", "--error", 0.02, "--spp", REFERENCE), shown(view, "paths", "--method", "path", "--spp", 4 * REFERENCE)]
     png.sheet(ROOT / "docs" / "figures" / "glossy-ramp.png", [cells])
-    return [Point(view, "--error", 0.02, "--spp", SAMPLES, "--glossy", source).row(source) for source in ("rays", "auto", "cache")]
+    return [GlossyPoint(view, "--error", 0.02, "--spp", SAMPLES, "--glossy", source).row(source) for source in ("rays", "auto", "cache")]
 
 
 def memory():

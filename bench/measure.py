@@ -3,6 +3,7 @@ import hashlib
 import json
 import os
 import pathlib
+import statistics
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -89,6 +90,34 @@ class Measured:
         self.rmse, self.block = (root_mean_square([e[key] for e in errors]) for key in ("relative_rmse", "block_error"))
         self.systematic_rmse, self.systematic_block = (root_mean_square([e[key] for e in shared]) if shared else None
                                                        for key in ("relative_rmse", "block_error"))
+
+
+class Point:
+    """Pictures of some seeds: CPU seconds and records in the mean, errors of the colours by root mean square, and bias in the mean."""
+
+    def __init__(self, view, *flags, seeds=(1,)):
+        each = [self._one(view, *flags, "--seed", seed) for seed in seeds]
+        self.stats = each[0][0]
+        records = [self.records_of(s) for s, _ in each]
+        self.records = "" if None in records else round(statistics.mean(records))
+        self.cpu, self.final = statistics.mean(cost(s) for s, _ in each), statistics.mean(s["cpu_seconds"]["final"] for s, _ in each)
+        self.rmse, self.block = (root_mean_square([e[key] for _, e in each]) for key in ("relative_rmse", "block_error"))
+        self.bias = statistics.mean(e["bias"] for _, e in each)
+
+    @staticmethod
+    def records_of(stats):
+        return stats["records"]
+
+    @staticmethod
+    def _one(view, *flags):
+        picture = BUILD / f"point-{os.getpid()}.exr"
+        stats = render(view, *flags, "--no-check", output=picture)
+        errors = error(view, picture, "")
+        picture.unlink()
+        return stats, errors
+
+    def row(self, *names):
+        return [*names, self.records, f"{self.cpu:.1f}", percent(self.rmse), percent(self.block), f"{100 * self.bias:+.2f}"]
 
 
 def cost(stats):

@@ -38,6 +38,17 @@ TEST(MediaCaches, KeepTheMeanLevelWhereMediaScatterForwards) {
   EXPECT_NEAR(level(foggy_job(stage, "jarosz2008a", 32, 64)) / paths, 1, 0.02);
 }
 
+TEST(MediaCaches, KeepTheMeanLevelOfDenseSmoke) {
+  // Twelve free paths across, lit from above, in thin air.
+  Scene scene = foggy_box(Rgb(0.02f), Rgb(0.01f), 0);
+  scene.media.push_back(scenes::medium({14.5f, 14, 13}, Rgb(0.7f), {{-0.4f, 0.5f, -0.4f}, {0.4f, 1.3f, 0.4f}}));
+  const Stage stage(std::move(scene));
+  const auto indirect = [](const Job& job) { return mean_luminance(render_all(job).layer("indirect")); };
+  const double paths = indirect(foggy_job(stage, "path", 32, 512));
+  for (const char* name : {"jarosz2008a", "cached"})
+    EXPECT_NEAR(indirect(foggy_job(stage, name, 32, 16)) / paths, 1, 0.04) << name;
+}
+
 TEST(MediaCaches, SurfacesAreCachedRightWhereMediaAreLeftToPaths) {
   const Stage stage(foggy_box(Rgb(0.4f), Rgb(0.1f), 0));
   const double paths = level(foggy_job(stage, "path", 32, 1024));

@@ -49,8 +49,11 @@ TEST(RelativeChange, TheGradientBoundsTheLength) {
   EXPECT_FLOAT_EQ(gradient_radius(r.jet), 1.0f / 3);
   EXPECT_FLOAT_EQ(relative_change(r.jet, view, 0.2f, {}).unscaled, 2);
   EXPECT_FLOAT_EQ(relative_change(r.jet, view, 0.2f, {.gradient = true}).unscaled, 1.0f / 3);
+  EXPECT_FLOAT_EQ(relative_change(r.jet, view, 4, {}).radius, 1.0f / 3);  // above 1 in any case
+  EXPECT_FLOAT_EQ(relative_change(r.jet, view, 4, {.min_pixels = 50}).radius, 0.5f);
   set_slope(r, {});
   EXPECT_FLOAT_EQ(relative_change(r.jet, view, 0.2f, {.gradient = true}).unscaled, 2);
+  EXPECT_FLOAT_EQ(relative_change(r.jet, view, 4, {}).radius, 8);
 }
 
 TEST(Uniform, InMediaIsOneBall) {

@@ -27,12 +27,12 @@ GatherSample meet(const World& world, const FarLight& from, const Ray& ray, cons
   return sample;
 }
 
-/// Shells for any place of the scene.
-Shells shells_of(const World& world, std::uint64_t key) {
+/// Shells about a place: the first is thin, beside the scene and beside the free path.
+Shells shells_at(const World& world, const Vec3& position, std::uint64_t key) {
   constexpr int count = 12;
-  constexpr float first = 0.01f;  // of the diagonal
-  const float scale = world.rays.scene_scale();
-  return {count, first * scale, scale, key};
+  constexpr float of_scene = 0.01f, of_free_path = 0.25f;
+  const float scale = world.rays.scene_scale(), extinction = max_component(world.media->extinction(position));
+  return {count, 1 / std::max(1 / (of_scene * scale), extinction / of_free_path), scale, key};
 }
 
 /// What media do along the ray of the i-th sample; what they scatter at the record itself, by the first shell.
@@ -66,7 +66,7 @@ void gather_hemisphere(const World& world, const FarLight& from, const Place& pl
   surface.geometric_normal = place.geometric_normal;
   surface.offset = place.offset;
   std::optional<Shells> shells;
-  if (world.media) shells = shells_of(world, key);
+  if (world.media) shells = shells_at(world, place.position, key);
   gather.shells = shells ? shells->count() : 0;
   gather.layers.assign(shells ? gather.samples.size() * static_cast<std::size_t>(shells->count() + 1) : 0, {});
   gather.sources.assign(shells ? gather.samples.size() : 0, {});
@@ -92,7 +92,7 @@ void gather_sphere(const World& world, const FarLight& from, const Vec3& positio
   gather.strata = strata;
   gather.samples.resize(static_cast<std::size_t>(strata.size()));
   gather.sources.resize(gather.samples.size());
-  const Shells shells = shells_of(world, key);
+  const Shells shells = shells_at(world, position, key);
   gather.shells = shells.count(), gather.shell_ends = shells.ends;
   gather.layers.assign(gather.samples.size() * static_cast<std::size_t>(shells.count() + 1), {});
   const int step = well_spread_step(strata.size());

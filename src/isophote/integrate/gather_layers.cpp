@@ -12,7 +12,7 @@ namespace {
 /// One shell of a ray, as far as caches know it.
 struct Looked {
   MediumPoint point;
-  Rgb weight;           ///< sigma_s times transmittance times length: of the light in-scattered there
+  Rgb weight;           ///< sigma_s times transmittance, over the shell: of the light in-scattered there
   Gradient<Rgb> slope;  ///< of the light in-scattered there, over directions
   bool wants_path = false;
 
@@ -39,6 +39,22 @@ void follow_one_path(const World& world, std::span<const Looked> looked, const V
   layers[chosen].radiance += at.weight * scattered.indirect / choice.chance(chosen);
 }
 
+/// The share of light that a layer of some optical depth takes; of thin ones too.
+Rgb absorptance(const Rgb& optical_depth) {
+  Rgb taken;
+  for (int c = 0; c < 3; ++c) taken[c] = -std::expm1(-std::max(optical_depth[c], 0.0f));
+  return taken;
+}
+
+/// Where to look at a part of a ray: at `middle`, but by what is seen of the part where it is so dense that its near
+/// end hides the far one.
+Vec3 seen_place(const World& world, const Ray& part, const Vec3& middle, const Rgb& taken, Sampler& sampler) {
+  constexpr float dense = 0.3f;
+  if (!(mean(taken) > dense)) return middle;
+  const auto points = world.media->sample_points(part, 1, sampler);
+  return points.empty() ? middle : points[0].point.position;
+}
+
 }  // namespace
 
 Shells::Shells(int count, float first, float last, std::uint64_t key) : ends(count), shares(count) {
@@ -61,7 +77,10 @@ void gather_layers(const World& world, const FarLight& from, const Ray& ray, con
   thread_local std::vector<Media::Passage> passages;
   thread_local std::vector<Looked> looked;
   depths.clear(), looked.assign(static_cast<std::size_t>(count), {});
-  for (int l = 0; l < count; ++l) depths.push_back(shells.depth(l, sample.distance));
+  for (int l = 0; l < count; ++l) {
+    depths.push_back(shells.depth(l, sample.distance));
+    depths.push_back(std::min(shells.ends[l], sample.distance));
+  }
   depths.push_back(sample.distance);
   passages.resize(depths.size());
   world.media->along(ray, depths, passages);
@@ -69,16 +88,20 @@ void gather_layers(const World& world, const FarLight& from, const Ray& ray, con
   layers[0] = {sample.radiance * passages.back().transmittance, sample.distance, passages.back().log_gradient};
   for (int l = 0; l < count; ++l) {
     GatherLayer& layer = layers[l + 1];
-    const float begin = l == 0 ? 0 : shells.ends[l - 1], end = std::min(shells.ends[l], sample.distance);
-    layer = {{}, depths[l], passages[l].log_gradient};
+    const float begin = l == 0 ? 0 : depths[2 * l - 1], end = depths[2 * l + 1];
+    layer = {{}, depths[2 * l], passages[2 * l].log_gradient};
     if (!(begin < end)) continue;
-    const Vec3 p = ray.origin + ray.direction * depths[l];
-    layer.radiance = world.media->emission(p) * passages[l].transmittance * (end - begin);
-    const auto scatterer = world.media->scatterer(p, sampler.next());
-    if (!scatterer) continue;
+    const Media::Passage before = l == 0 ? Media::Passage{} : passages[2 * l - 1];
+    const Rgb taken = absorptance(passages[2 * l + 1].optical_depth - before.optical_depth);
+    const Vec3 middle = ray.origin + ray.direction * layer.depth;
+    layer.radiance = world.media->emission(middle) * passages[2 * l].transmittance * (end - begin);
+    if (is_black(taken)) continue;
+    const Ray part{ray.origin, ray.direction, begin, end};
+    const auto medium = world.media->albedo(seen_place(world, part, middle, taken, sampler), sampler.next());
+    if (!medium) continue;
     Looked& here = looked[l];
-    here.point = scatterer->point;
-    here.weight = scatterer->scattering * passages[l].transmittance * (end - begin);
+    here.point = medium->point;
+    here.weight = medium->albedo * taken * before.transmittance;
     Rgb source = direct_light(world, here.point, ray.direction, PunctualKinds::all, sampler, counts, &here.slope);
     const auto indirect = cached_in_scattering(world, from, here.point, ray.direction, counts);
     here.wants_path = !indirect;

@@ -169,7 +169,7 @@ void Media::along(const Ray& ray, std::span<const float> depths, std::span<Passa
     const Vec3d slope = w * static_cast<double>(here) - (across - w * dot(w, across));
     const Rgb sigma = medium.extinction();
     Passage& p = passages[i];
-    p.transmittance *= exp(sigma * -static_cast<float>(sum.density));
+    p.optical_depth += sigma * static_cast<float>(sum.density);
     p.log_gradient.x += sigma * static_cast<float>(slope.x);
     p.log_gradient.y += sigma * static_cast<float>(slope.y);
     p.log_gradient.z += sigma * static_cast<float>(slope.z);
@@ -195,6 +195,7 @@ void Media::along(const Ray& ray, std::span<const float> depths, std::span<Passa
       add(medium, i, sum, bounds, here);
     }
   });
+  for (Passage& p : passages) p.transmittance = exp(-1 * p.optical_depth);
 }
 
 std::optional<Media::Scatterer> Media::scatterer(const Vec3& p, float u) const {
@@ -208,6 +209,33 @@ std::optional<Media::Scatterer> Media::scatterer(const Vec3& p, float u) const {
   const std::uint32_t chosen = choice.sample(u);
   const Medium& medium = impl_->media[chosen];
   return Scatterer{{p, medium.g, chosen, {}}, medium.scattering * (densities[chosen] / choice.chance(chosen))};
+}
+
+std::optional<Media::AlbedoOf> Media::albedo(const Vec3& p, float u) const {
+  constexpr float least = 1e-6f;  // of density: what is taken to be where there is nothing
+  const std::uint32_t held = holding(p);
+  std::array<float, FewChoice::most> densities{};
+  Rgb extinction;
+  const FewChoice choice(impl_->media.size(), [&](std::uint32_t i) {
+    if (!(held >> i & 1)) return 0.0f;
+    densities[i] = std::max(density_at(impl_->media[i], p), least);
+    extinction += impl_->media[i].extinction() * densities[i];
+    return mean(impl_->media[i].scattering) * densities[i];
+  });
+  if (choice.empty()) return std::nullopt;
+  const std::uint32_t chosen = choice.sample(u);
+  const Medium& medium = impl_->media[chosen];
+  Rgb albedo = medium.scattering * (densities[chosen] / choice.chance(chosen));
+  for (int c = 0; c < 3; ++c) albedo[c] = extinction[c] > 0 ? albedo[c] / extinction[c] : 0;
+  return AlbedoOf{{p, medium.g, chosen, {}}, albedo};
+}
+
+Rgb Media::extinction(const Vec3& p) const {
+  Rgb sum;
+  const std::uint32_t held = holding(p);
+  for (std::size_t i = 0; i < impl_->media.size(); ++i)
+    if (held >> i & 1) sum += impl_->media[i].extinction() * density_at(impl_->media[i], p);
+  return sum;
 }
 
 Rgb Media::emission(const Vec3& p) const {

@@ -42,6 +42,15 @@ class Media {
     Rgb scattering;
   };
   std::optional<Scatterer> scatterer(const Vec3& p, float u) const;
+  /// One of the media that hold `p` and can scatter, chosen likewise, though there may be nothing of them just there,
+  /// with its sigma_s over sigma_t of all and over the chance of the choice: for one medium, its albedo.
+  struct AlbedoOf {
+    MediumPoint point;
+    Rgb albedo;
+  };
+  std::optional<AlbedoOf> albedo(const Vec3& p, float u) const;
+  /// sigma_t of all media at `p`, 1/m.
+  Rgb extinction(const Vec3& p) const;
 
   /// What media emit at `p`, W/m3/sr.
   Rgb emission(const Vec3& p) const;
@@ -71,7 +80,8 @@ class Media {
   /// What passes from `depths` along the ray, ascending and finite or not, to its origin: not sampled, grids cell by
   /// cell.
   struct Passage {
-    Rgb transmittance{1.0f};
+    Rgb optical_depth;
+    Rgb transmittance{1.0f};     ///< exp(-optical_depth)
     Gradient<Rgb> log_gradient;  ///< of the transmittance's logarithm as the origin moves and the far end stays, 1/m
   };
   void along(const Ray& ray, std::span<const float> depths, std::span<Passage> passages) const;

@@ -9,8 +9,10 @@ namespace isophote {
 Footprint relative_change(const VolumeJet& jet, const View& view, float a, const RadiusBounds& bounds) {
   float unscaled = view.scene_scale;
   if (jet.gradient_sum > 0) unscaled = std::min(unscaled, jet.value_sum / jet.gradient_sum);
-  if (bounds.gradient) unscaled = std::min(unscaled, gradient_radius(jet));
-  const RadiusRange range(bounds, view, a);
+  const float of_gradient = gradient_radius(jet);
+  if (bounds.gradient) unscaled = std::min(unscaled, of_gradient);
+  RadiusRange range(bounds, view, a);
+  if (a > 1) range.largest = std::clamp(of_gradient, range.smallest, range.largest);
   Footprint footprint = Footprint::ball(range.largest);
   footprint.unscaled = unscaled;
   footprint.smallest = range.smallest, footprint.largest = range.largest;
