@@ -108,7 +108,9 @@ TEST(VolumeCatalogue, MakesAndSettlesRecordsAsItsPartsSay) {
   Method method = find_method("jarosz2008a");
   method.volume.estimator = &estimator;
   method.volume.settings.a = 0.2f;
-  const auto made = [&] { return method.make_volume_record(gather, VolumePart::media, 5, 2, view); };
+  const auto made = [&] {
+    return method.make_volume_record(gather.position, estimator.estimate(gather, VolumePart::media, 2), 5, view);
+  };
   VolumeRecord record = made();
   EXPECT_EQ(record.position, gather.position);
   EXPECT_EQ(record.normal, Vec3{});

@@ -49,6 +49,20 @@ TEST(MediaCaches, KeepTheMeanLevelOfDenseSmoke) {
     EXPECT_NEAR(indirect(foggy_job(stage, name, 32, 16)) / paths, 1, 0.04) << name;
 }
 
+TEST(MediaCaches, KeepTheMeanLevelOfAThinCloudAndOfSootInAir) {
+  // Media that fill shells of a gather in part, and such of unlike albedo.
+  for (const bool soot : {false, true}) {
+    Scene scene = scenes::cornell_box();
+    if (soot) scene.media.push_back(scenes::medium(Rgb(0.3f), {}, {{-1, 0, -1}, {1, 2, 1}}));
+    const Rgb scattering = soot ? Rgb(1.0f) : Rgb(1.5f), absorption = soot ? Rgb(4.0f) : Rgb(0.1f);
+    scene.media.push_back(scenes::medium(scattering, absorption, {{-0.5f, 0.6f, -0.5f}, {0.5f, 0.9f, 0.5f}}));
+    const Stage stage(std::move(scene));
+    const auto indirect = [](const Job& job) { return mean_luminance(render_all(job).layer("indirect")); };
+    const double paths = indirect(foggy_job(stage, "path", 32, 1024));
+    EXPECT_NEAR(indirect(foggy_job(stage, "cached", 32, 16)) / paths, 1, 0.025) << soot;
+  }
+}
+
 TEST(MediaCaches, SurfacesAreCachedRightWhereMediaAreLeftToPaths) {
   const Stage stage(foggy_box(Rgb(0.4f), Rgb(0.1f), 0));
   const double paths = level(foggy_job(stage, "path", 32, 1024));

@@ -51,6 +51,24 @@ TEST(Media, TransmittanceOfUniformAndHeightFog) {
   }
 }
 
+TEST(Media, FlightsEndInWhatIsAsGoodAsSolid) {
+  // Red goes no further than the first event, the rest straight through; and of what only glows, density may be huge.
+  Medium glow = scenes::medium({}, {}, {{-1, 0, -1}, {1, 1, 1}});
+  glow.emission = Rgb(1e-26f), glow.density = HeightDensity{60, 1};
+  const Scene scene = scene_of({scenes::medium({1e9f, 0, 0}, {}, cube), glow});
+  const Media media(scene);
+  Estimate green, emitted;
+  for (int i = 0; i < 4000; ++i) {
+    Sampler sampler = sampler_of(91, i);
+    Rgb throughput(1.0f), emission;
+    const auto met = media.collide({{-2, 0.5f, 0}, {1, 0, 0}, 0, 4}, sampler, throughput, emission);
+    green.add(met ? 0 : throughput.g);
+    emitted.add(emission.g);
+  }
+  expect_mean(green, 1, 0.05);
+  expect_mean(emitted, 2 * 1e-26 * std::exp(59.5), 0.05);
+}
+
 TEST(Media, OverlappingMediaAddUp) {
   const Scene scene = scene_of({scenes::medium(Rgb(0.5f), {}, cube), scenes::medium({}, Rgb(0.25f), cube)});
   const Media media(scene);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "isophote/cache/volume_cache.h"
@@ -32,14 +34,25 @@ class VolumeBuilder {
     float nearest = infinity, reach = 0;  ///< of the record nearest in terms of its own footprint: distance and radius
   };
 
+  /// What a gather at a candidate says of the parts that it wants, by VolumePart.
+  using Jets = std::array<std::optional<VolumeJet>, 2>;
+
   std::vector<Candidate> uncovered(int stride, int sample, RayCounts& rays) const;
   bool still_wants(Candidate& candidate, RayCounts& counts) const;
   void meet_records(Candidate& candidate) const;
-  void add_round(const std::vector<Candidate>& picked, RayCounts& rays);
+  /// Keeps those that no record serves yet.
+  void leave_wanting(std::vector<Candidate>& candidates, RayCounts& rays) const;
+  /// Learns from the first candidates what the wanted error makes of a threshold, where the metric asks and nothing is
+  /// known yet; their gathers become the first records. True: it did.
+  bool survey(std::span<Candidate> candidates, RayCounts& rays);
+  std::vector<Jets> jets_at(std::span<const Candidate> places, RayCounts& rays) const;
+  /// Makes records of jets at places.
+  void add(std::span<const Candidate> places, std::span<Jets> jets);
 
   const Job& job_;
   RecordCache& cache_;
   std::size_t rounds_ = 0;
+  std::array<Pilot, 2> pilots_{};  // by VolumePart
 };
 
 }  // namespace isophote

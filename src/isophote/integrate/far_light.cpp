@@ -38,8 +38,8 @@ Cell traced(const World& world, const FarLight& from, const SurfacePoint& point,
   if (!(sampler.next() < survival)) return sample;
   const Vec3 direction = Frame(point.shading_normal).to_world(cosine_hemisphere(u));
   if (!(dot(direction, point.geometric_normal) > 0)) return sample;
-  const FirstPoint hit =
-      first_point(world, {offset_origin(point, direction), direction}, false, sampler, counts.path, point.medium);
+  const FirstPoint hit = first_point(world, {offset_origin(point, direction), direction}, false, sampler, counts.path,
+                                     point.medium, FirstSegment::in_media, depth + 1);
   Rgb radiance = hit.emission;
   if (hit.point) {
     const Shaded light =

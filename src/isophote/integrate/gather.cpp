@@ -19,7 +19,7 @@ Rgb scattered_radiance(const World& world, const FarLight& from, const FirstPoin
 /// What a ray meets, and the radiance of that and of what lies behind in mirrors, but for what media do before it.
 GatherSample meet(const World& world, const FarLight& from, const Ray& ray, const Rgb& medium, Sampler& sampler,
                   RayCounts& counts) {
-  const FirstPoint hit = first_point(world, ray, false, sampler, counts.gather, medium, FirstSegment::clear);
+  const FirstPoint hit = first_point(world, ray, false, sampler, counts.gather, medium, FirstSegment::clear, 1);
   GatherSample sample{ray.direction, hit.first_distance, hit.emission, hit.first_normal, hit.first_mesh};
   const int depth = 1 + hit.depth;
   if (hit.scatters() && depth < world.max_depth)
@@ -27,12 +27,14 @@ GatherSample meet(const World& world, const FarLight& from, const Ray& ray, cons
   return sample;
 }
 
-/// Shells about a place: the first is thin, beside the scene and beside the free path.
+/// Shells about a place, to the end of all media: the first is thin, beside the scene and beside the free path.
 Shells shells_at(const World& world, const Vec3& position, std::uint64_t key) {
   constexpr int count = 12;
   constexpr float of_scene = 0.01f, of_free_path = 0.25f;
   const float scale = world.rays.scene_scale(), extinction = max_component(world.media->extinction(position));
-  return {count, 1 / std::max(1 / (of_scene * scale), extinction / of_free_path), scale, key};
+  const Box media = world.media->bounds();
+  const float farthest = length(max(media.upper - position, position - media.lower));
+  return {count, 1 / std::max(1 / (of_scene * scale), extinction / of_free_path), std::max(scale, farthest), key};
 }
 
 /// What media do along the ray of the i-th sample; what they scatter at the record itself, by the first shell.
@@ -42,7 +44,8 @@ void add_layers(const World& world, const FarLight& from, const Ray& ray, const 
   const auto size = static_cast<std::size_t>(shells.count() + 1), index = static_cast<std::size_t>(i);
   const auto layers = std::span(gather.layers).subspan(index * size, size);
   gather_layers(world, from, ray, shells, sampler, counts, gather.samples[index], layers);
-  gather.sources[index] = layers[1].radiance / std::min(shells.ends[0], gather.samples[index].distance);
+  if (!gather.sources.empty())
+    gather.sources[index] = layers[1].radiance / std::min(shells.ends[0], gather.samples[index].distance);
 }
 
 /// A step that visits all of `size` strata, early ones well spread over the hemisphere: the first rays into a cell
@@ -69,7 +72,8 @@ void gather_hemisphere(const World& world, const FarLight& from, const Place& pl
   if (world.media) shells = shells_at(world, place.position, key);
   gather.shells = shells ? shells->count() : 0;
   gather.layers.assign(shells ? gather.samples.size() * static_cast<std::size_t>(shells->count() + 1) : 0, {});
-  gather.sources.assign(shells ? gather.samples.size() : 0, {});
+  const bool alike = !shells || !(world.media->anisotropy(~0u) > 0);
+  gather.sources.assign(alike ? 0 : gather.samples.size(), {});
   const int step = well_spread_step(strata.size());
   for (int n = 0, i = 0; n < strata.size(); ++n, i = (i + step) % strata.size()) {
     Sampler sampler(key, static_cast<std::uint32_t>(i));

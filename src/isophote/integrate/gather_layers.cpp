@@ -39,22 +39,6 @@ void follow_one_path(const World& world, std::span<const Looked> looked, const V
   layers[chosen].radiance += at.weight * scattered.indirect / choice.chance(chosen);
 }
 
-/// The share of light that a layer of some optical depth takes; of thin ones too.
-Rgb absorptance(const Rgb& optical_depth) {
-  Rgb taken;
-  for (int c = 0; c < 3; ++c) taken[c] = -std::expm1(-std::max(optical_depth[c], 0.0f));
-  return taken;
-}
-
-/// Where to look at a part of a ray: at `middle`, but by what is seen of the part where it is so dense that its near
-/// end hides the far one.
-Vec3 seen_place(const World& world, const Ray& part, const Vec3& middle, const Rgb& taken, Sampler& sampler) {
-  constexpr float dense = 0.3f;
-  if (!(mean(taken) > dense)) return middle;
-  const auto points = world.media->sample_points(part, 1, sampler);
-  return points.empty() ? middle : points[0].point.position;
-}
-
 }  // namespace
 
 Shells::Shells(int count, float first, float last, std::uint64_t key) : ends(count), shares(count) {
@@ -73,14 +57,14 @@ float Shells::depth(int l, float end) const {
 void gather_layers(const World& world, const FarLight& from, const Ray& ray, const Shells& shells, Sampler& sampler,
                    RayCounts& counts, GatherSample& sample, std::span<GatherLayer> layers) {
   const int count = shells.count();
-  thread_local std::vector<float> depths;
+  thread_local std::vector<float> ends, depths;
   thread_local std::vector<Media::Passage> passages;
   thread_local std::vector<Looked> looked;
-  depths.clear(), looked.assign(static_cast<std::size_t>(count), {});
-  for (int l = 0; l < count; ++l) {
-    depths.push_back(shells.depth(l, sample.distance));
-    depths.push_back(std::min(shells.ends[l], sample.distance));
-  }
+  ends.clear(), depths.clear(), looked.assign(static_cast<std::size_t>(count), {});
+  for (const float end : shells.ends) ends.push_back(std::min(end, sample.distance));
+  const auto points = world.media->sample_parts({ray.origin, ray.direction, 0, sample.distance}, ends, sampler);
+  for (int l = 0; l < count; ++l)
+    depths.push_back(points[l].length > 0 ? points[l].distance : shells.depth(l, sample.distance));
   depths.push_back(sample.distance);
   passages.resize(depths.size());
   world.media->along(ray, depths, passages);
@@ -88,20 +72,15 @@ void gather_layers(const World& world, const FarLight& from, const Ray& ray, con
   layers[0] = {sample.radiance * passages.back().transmittance, sample.distance, passages.back().log_gradient};
   for (int l = 0; l < count; ++l) {
     GatherLayer& layer = layers[l + 1];
-    const float begin = l == 0 ? 0 : depths[2 * l - 1], end = depths[2 * l + 1];
-    layer = {{}, depths[2 * l], passages[2 * l].log_gradient};
-    if (!(begin < end)) continue;
-    const Media::Passage before = l == 0 ? Media::Passage{} : passages[2 * l - 1];
-    const Rgb taken = absorptance(passages[2 * l + 1].optical_depth - before.optical_depth);
-    const Vec3 middle = ray.origin + ray.direction * layer.depth;
-    layer.radiance = world.media->emission(middle) * passages[2 * l].transmittance * (end - begin);
-    if (is_black(taken)) continue;
-    const Ray part{ray.origin, ray.direction, begin, end};
-    const auto medium = world.media->albedo(seen_place(world, part, middle, taken, sampler), sampler.next());
-    if (!medium) continue;
+    const Media::RayPoint& at = points[l];
+    layer = {{}, shells.depth(l, sample.distance), passages[l].log_gradient};
+    if (!(at.length > 0)) continue;
+    const Rgb passes = passages[l].transmittance * at.length;
+    layer.radiance = passes * at.emission;
+    if (is_black(at.scattering)) continue;
     Looked& here = looked[l];
-    here.point = medium->point;
-    here.weight = medium->albedo * taken * before.transmittance;
+    here.point = at.point;
+    here.weight = passes * at.scattering;
     Rgb source = direct_light(world, here.point, ray.direction, PunctualKinds::all, sampler, counts, &here.slope);
     const auto indirect = cached_in_scattering(world, from, here.point, ray.direction, counts);
     here.wants_path = !indirect;

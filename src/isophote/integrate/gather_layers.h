@@ -25,7 +25,7 @@ struct Shells {
 
 /// Has the media of the world, which must have some, act on what `sample` saw, whose radiance is without them, and adds
 /// the light that they scatter on the way there: `from` what is known of it, or from a path. A shell is looked at in
-/// one place, its extinction is integrated. Fills shells.count() + 1 layers, of which the sample's radiance becomes the
+/// one place, chosen by what is seen of it. Fills shells.count() + 1 layers, of which the sample's radiance becomes the
 /// sum.
 void gather_layers(const World& world, const FarLight& from, const Ray& ray, const Shells& shells, Sampler& sampler,
                    RayCounts& counts, GatherSample& sample, std::span<GatherLayer> layers);

@@ -9,12 +9,17 @@
 
 namespace isophote {
 
+/// 1 + g^2 - 2 g cosine, in a form that loses no digits where |g| and the cosine are near 1.
+inline float henyey_greenstein_root(float g, float cosine) {
+  const float a = std::abs(g), turned = std::max(0.0f, g < 0 ? 1 + cosine : 1 - cosine);
+  return (1 - a) * (1 - a) + 2 * a * turned;
+}
+
 /// The phase function of [Henyey, Greenstein 1941], 1/sr: the density in solid angle of the direction after scattering.
 /// `cosine` is that of the angle between the directions of propagation before and after (1: straight on), `g` in
-/// (-1, 1) its mean. Of 1 + g^2 - 2 g cosine, the form used here loses no digits where |g| and the cosine are near 1.
+/// (-1, 1) its mean.
 inline float henyey_greenstein(float g, float cosine) {
-  const float a = std::abs(g), turned = std::max(0.0f, g < 0 ? 1 + cosine : 1 - cosine);
-  const float d = (1 - a) * (1 - a) + 2 * a * turned;
+  const float a = std::abs(g), d = henyey_greenstein_root(g, cosine);
   return (1 - a) * (1 + a) / (4 * pi * d * std::sqrt(d));
 }
 

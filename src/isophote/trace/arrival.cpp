@@ -98,8 +98,8 @@ Arrival follow(const World& world, const Ray& start, Rgb inside, int depth, Samp
 }
 
 FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind,
-                       const Rgb& inside, FirstSegment first_segment) {
-  Arrival arrival = follow(world, ray, inside, 0, sampler, kind, first_segment);
+                       const Rgb& inside, FirstSegment first_segment, int depth) {
+  Arrival arrival = follow(world, ray, inside, depth, sampler, kind, first_segment);
   arrival.first.emission += arrival.sky;
   if (see_lamps) arrival.first.emission += arrival.lamp;
   return arrival.first;

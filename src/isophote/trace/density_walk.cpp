@@ -114,6 +114,18 @@ Columns columns(const Medium& medium, const Ray& ray, float from, float to) {
   return uniform_columns(from, to);
 }
 
+Box box_about(const Medium& medium) {
+  if (const auto* box = std::get_if<Box>(&medium.bounds)) return *box;
+  Box box;
+  for (const Vec3& p : std::get<ClosedMesh>(medium.bounds).positions) box.extend(p);
+  return box;
+}
+
+float largest_density(const Medium& medium) {
+  if (const auto* grid = std::get_if<GridDensity>(&medium.density)) return (*grid)->majorant();
+  return density_at(medium, box_about(medium).lower);  // height fog thins upwards
+}
+
 float density_at(const Medium& medium, const Vec3& p) {
   if (const auto* height = std::get_if<HeightDensity>(&medium.density)) return at_height(*height, p.y);
   if (const auto* grid = std::get_if<GridDensity>(&medium.density)) return (*grid)->density(p);

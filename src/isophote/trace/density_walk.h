@@ -8,6 +8,10 @@ namespace isophote {
 /// Density of a medium at a point of its bounds.
 float density_at(const Medium& medium, const Vec3& p);
 
+/// The box about a medium's bounds, and the most that its density is there.
+Box box_about(const Medium& medium);
+float largest_density(const Medium& medium);
+
 /// A place along a ray, with a bound on the density there.
 struct FlightEnd {
   float distance = infinity;  ///< infinity: beyond the end

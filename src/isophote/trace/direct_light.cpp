@@ -78,8 +78,8 @@ Rgb direct_light(const World& world, const MediumPoint& point, const Vec3& direc
     const Rgb scattered = light.radiance * phase;
     sum += scattered;
     if (!slope) return;
-    const float c = dot(direction, light.direction), d = 1 + point.g * point.g - 2 * point.g * c;
-    const Vec3 across = (light.direction - direction * c) * (3 * point.g / d);
+    const float c = dot(direction, light.direction);
+    const Vec3 across = (light.direction - direction * c) * (3 * point.g / henyey_greenstein_root(point.g, c));
     slope->x += scattered * across.x, slope->y += scattered * across.y, slope->z += scattered * across.z;
   };
   sample_lights(world, point, u_choice, u_light, seed, Emitters::Among::sampled_directly, kinds, counts, scatter_it,

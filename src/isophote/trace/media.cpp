@@ -8,7 +8,7 @@
 #include "isophote/sampling/few_choice.h"
 #include "isophote/scene/density_grid.h"
 #include "isophote/trace/density_walk.h"
-#include "isophote/trace/medium_spans.h"
+#include "isophote/trace/medium_pieces.h"
 
 namespace isophote {
 namespace {
@@ -29,6 +29,7 @@ class Numbers {
 /// The next place, in one medium along a ray, at which the medium may turn out to be met.
 struct Flight {
   MediumSpan span;
+  float rate = 0;   // of tentative collisions per length, at density 1
   float bound = 0;  // on density, there
 };
 
@@ -37,37 +38,52 @@ struct Flight {
 struct Media::Impl {
   std::span<const Medium> media;
   MediumBounds bounds;
-  std::vector<float> rates;  // of tentative collisions per length, at density 1
+  std::vector<float> emission_rates;  // of tentative collisions per length, at density 1: at least
+  Box box;                            // about all bounds
 
   explicit Impl(std::span<const Medium> all) : media(all), bounds(all) {
     for (const Medium& m : media) {
-      const float rate = max_component(m.extinction());
-      rates.push_back(rate > 0 || is_black(m.emission) ? rate : emission_rate(m));
+      emission_rates.push_back(is_black(m.emission) ? 0 : emission_rate(m));
+      const Box about = box_about(m);
+      box.extend(about.lower), box.extend(about.upper);
     }
   }
 
-  /// Density for choosing by: never so small that other places of its surroundings would be missed.
-  static float roughly(const Medium& medium, const Vec3& p) {
-    constexpr float least = 0.02f;
-    const auto* grid = std::get_if<GridDensity>(&medium.density);
-    return grid ? std::max((*grid)->density(p), least * (*grid)->majorant()) : density_at(medium, p);
+  /// What emits is met about four times along its diagonal, if it were as dense as anywhere.
+  static float emission_rate(const Medium& medium) {
+    const float density = largest_density(medium);
+    return density > 0 ? 4 / (box_about(medium).diagonal() * density) : 0;
   }
 
-  /// What only emits is met about four times along its diagonal.
-  static float emission_rate(const Medium& medium) {
-    Box box;
-    if (const auto* mesh = std::get_if<ClosedMesh>(&medium.bounds))
-      for (const Vec3& p : mesh->positions) box.extend(p);
-    else
-      box = std::get<Box>(medium.bounds);
-    return 4 / box.diagonal();
+  /// The point of a piece at a share of it, chosen with the piece's weight over `total` per its size.
+  RayPoint point_in(const Ray& ray, const MediumPiece& piece, float share, float total) const {
+    const float distance = piece.near + std::clamp(share, 0.0f, 1.0f) * piece.size;
+    const Medium& medium = media[piece.medium];
+    const Vec3 p = ray.origin + ray.direction * distance;
+    const float density = density_at(medium, p);
+    return {distance,
+            piece.size * total / piece.weight,
+            {p, medium.g, piece.medium, {}},
+            medium.scattering * density,
+            medium.emission * density};
+  }
+
+  /// The rate of tentative collisions per length, at density 1, where channels have this throughput: the highest
+  /// extinction's, but no more than some times that of a channel which is not black yet, or flights would never end.
+  float rate_for(std::uint32_t medium, const Rgb& throughput) const {
+    constexpr float smooth = 32;  // weights are the smoother the higher the rate
+    const Rgb extinction = media[medium].extinction();
+    float lit = 0;
+    for (int c = 0; c < 3; ++c)
+      if (throughput[c] > 0) lit = std::max(lit, extinction[c]);
+    return std::max(emission_rates[medium], std::min(max_component(extinction), smooth * lit));
   }
 
   /// Moves on to the next tentative collision; false: there is none before the span's end.
-  bool fly_on(const Ray& ray, float depth, Flight& flight) const {
-    const std::uint32_t i = flight.span.medium;
-    if (!(rates[i] > 0)) return false;
-    const FlightEnd end = fly(media[i], ray, flight.span.near, flight.span.far, depth / rates[i]);
+  bool fly_on(const Ray& ray, float depth, float rate, Flight& flight) const {
+    if (!(rate > 0)) return false;
+    flight.rate = rate;
+    const FlightEnd end = fly(media[flight.span.medium], ray, flight.span.near, flight.span.far, depth / rate);
     flight.span.near = end.distance, flight.bound = end.bound;
     return end.distance < infinity;
   }
@@ -84,6 +100,8 @@ std::uint32_t Media::holding(const Vec3& p) const {
   impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) { bits |= 1u << span.medium; });
   return bits;
 }
+
+Box Media::bounds() const { return impl_->box; }
 
 Ray Media::within(const Ray& ray) const {
   Ray part{ray.origin, ray.direction, ray.far, ray.near};
@@ -108,7 +126,7 @@ std::optional<MediumPoint> Media::collide(const Ray& ray, Sampler& sampler, Rgb&
   Numbers numbers(sampler.next_bits());
   impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) {
     Flight flight{span};
-    if (impl_->fly_on(ray, depth, flight)) flights.push_back(flight);
+    if (impl_->fly_on(ray, depth, impl_->rate_for(span.medium, throughput), flight)) flights.push_back(flight);
     depth = numbers.next_depth();
   });
   while (!flights.empty()) {
@@ -117,7 +135,7 @@ std::optional<MediumPoint> Media::collide(const Ray& ray, Sampler& sampler, Rgb&
     const Medium& medium = impl_->media[at->span.medium];
     const Vec3 p = ray.origin + ray.direction * at->span.near;
     // Shares of tentative collisions here that scatter and that are none; the rest absorbs.
-    const float share = std::min(1.0f, density_at(medium, p) / at->bound), rate = impl_->rates[at->span.medium];
+    const float share = std::min(1.0f, density_at(medium, p) / at->bound), rate = at->rate;
     const Rgb scatters = medium.scattering * (share / rate);
     const Rgb none = max(Rgb(1.0f) - medium.extinction() * (share / rate), Rgb{});
     emission += throughput * medium.emission * (share / rate);
@@ -132,7 +150,7 @@ std::optional<MediumPoint> Media::collide(const Ray& ray, Sampler& sampler, Rgb&
       return MediumPoint{p, medium.g, at->span.medium, {}};
     }
     throughput *= none / (1 - chance);
-    if (!impl_->fly_on(ray, numbers.next_depth(), *at)) flights.erase(at);
+    if (!impl_->fly_on(ray, numbers.next_depth(), impl_->rate_for(at->span.medium, throughput), *at)) flights.erase(at);
   }
   return std::nullopt;
 }
@@ -147,8 +165,8 @@ Rgb Media::transmittance(const Ray& ray, std::uint32_t seed) const {
       passed *= exp(extinction * -static_cast<float>(columns(medium, ray, span.near, span.far).density));
       return;
     }
-    const float rate = impl_->rates[span.medium];
-    for (Flight flight{span}; impl_->fly_on(ray, numbers.next_depth(), flight);) {
+    const float rate = max_component(extinction);
+    for (Flight flight{span}; impl_->fly_on(ray, numbers.next_depth(), rate, flight);) {
       const float density = density_at(medium, ray.origin + ray.direction * flight.span.near);
       passed *= max(Rgb(1.0f) - extinction * (std::min(1.0f, density / flight.bound) / rate), Rgb{});
       if (is_black(passed)) return;
@@ -169,7 +187,7 @@ void Media::along(const Ray& ray, std::span<const float> depths, std::span<Passa
     const Vec3d slope = w * static_cast<double>(here) - (across - w * dot(w, across));
     const Rgb sigma = medium.extinction();
     Passage& p = passages[i];
-    p.optical_depth += sigma * static_cast<float>(sum.density);
+    p.transmittance *= exp(sigma * -static_cast<float>(sum.density));
     p.log_gradient.x += sigma * static_cast<float>(slope.x);
     p.log_gradient.y += sigma * static_cast<float>(slope.y);
     p.log_gradient.z += sigma * static_cast<float>(slope.z);
@@ -195,7 +213,6 @@ void Media::along(const Ray& ray, std::span<const float> depths, std::span<Passa
       add(medium, i, sum, bounds, here);
     }
   });
-  for (Passage& p : passages) p.transmittance = exp(-1 * p.optical_depth);
 }
 
 std::optional<Media::Scatterer> Media::scatterer(const Vec3& p, float u) const {
@@ -209,25 +226,6 @@ std::optional<Media::Scatterer> Media::scatterer(const Vec3& p, float u) const {
   const std::uint32_t chosen = choice.sample(u);
   const Medium& medium = impl_->media[chosen];
   return Scatterer{{p, medium.g, chosen, {}}, medium.scattering * (densities[chosen] / choice.chance(chosen))};
-}
-
-std::optional<Media::AlbedoOf> Media::albedo(const Vec3& p, float u) const {
-  constexpr float least = 1e-6f;  // of density: what is taken to be where there is nothing
-  const std::uint32_t held = holding(p);
-  std::array<float, FewChoice::most> densities{};
-  Rgb extinction;
-  const FewChoice choice(impl_->media.size(), [&](std::uint32_t i) {
-    if (!(held >> i & 1)) return 0.0f;
-    densities[i] = std::max(density_at(impl_->media[i], p), least);
-    extinction += impl_->media[i].extinction() * densities[i];
-    return mean(impl_->media[i].scattering) * densities[i];
-  });
-  if (choice.empty()) return std::nullopt;
-  const std::uint32_t chosen = choice.sample(u);
-  const Medium& medium = impl_->media[chosen];
-  Rgb albedo = medium.scattering * (densities[chosen] / choice.chance(chosen));
-  for (int c = 0; c < 3; ++c) albedo[c] = extinction[c] > 0 ? albedo[c] / extinction[c] : 0;
-  return AlbedoOf{{p, medium.g, chosen, {}}, albedo};
 }
 
 Rgb Media::extinction(const Vec3& p) const {
@@ -249,31 +247,12 @@ Rgb Media::emission(const Vec3& p) const {
 
 std::span<const Media::RayPoint> Media::sample_points(const Ray& ray, int count, Sampler& sampler) const {
   constexpr int pieces = 16;  // of a span
-  struct Piece {
-    std::uint32_t medium;
-    float near, size, scattering, extinction, weight;
-  };
-  thread_local std::vector<Piece> along;
+  thread_local std::vector<MediumPiece> along;
   thread_local std::vector<RayPoint> points;
   along.clear(), points.clear();
-  impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) {
-    const Medium& medium = impl_->media[span.medium];
-    const float size = (span.far - span.near) / pieces;
-    const float glow = is_black(medium.emission) ? 0 : std::max(mean(medium.extinction()), 1 / (span.far - span.near));
-    for (int i = 0; i < pieces; ++i) {
-      const float near = span.near + size * static_cast<float>(i);
-      const float density = impl_->roughly(medium, ray.origin + ray.direction * (near + size / 2));
-      along.push_back({span.medium, near, size, (mean(medium.scattering) + glow) * density,
-                       mean(medium.extinction()) * density, 0});
-    }
-  });
-  std::sort(along.begin(), along.end(), [](const Piece& a, const Piece& b) { return a.near < b.near; });
-  float depth = 0, total = 0;
-  for (Piece& p : along) {
-    const float within = p.extinction * p.size;
-    p.weight = p.scattering * p.size * std::exp(-depth) * (within > 1e-4f ? -std::expm1(-within) / within : 1.0f);
-    depth += within, total += p.weight;
-  }
+  impl_->bounds.visit_spans(ray,
+                            [&](const MediumSpan& span) { cut(impl_->media[span.medium], ray, span, pieces, along); });
+  const float total = weigh(along);
   if (!(total > 0)) return points;
   const float shift = sampler.next();
   float before = 0;
@@ -281,17 +260,37 @@ std::span<const Media::RayPoint> Media::sample_points(const Ray& ray, int count,
   for (int i = 0; i < count; ++i) {
     const float at = total * (static_cast<float>(i) + shift) / static_cast<float>(count);
     while (std::next(piece) != along.end() && at >= before + piece->weight) before += (piece++)->weight;
-    if (!(piece->weight > 0)) continue;
-    const float in_piece = std::clamp((at - before) / piece->weight, 0.0f, 1.0f);
-    const float distance = piece->near + in_piece * piece->size;
-    const Medium& medium = impl_->media[piece->medium];
-    const Vec3 p = ray.origin + ray.direction * distance;
-    const float density = density_at(medium, p);
-    points.push_back({distance,
-                      piece->size * total / (piece->weight * static_cast<float>(count)),
-                      {p, medium.g, piece->medium, {}},
-                      medium.scattering * density,
-                      medium.emission * density});
+    if (piece->weight > 0)
+      points.push_back(impl_->point_in(ray, *piece, (at - before) / piece->weight, total / static_cast<float>(count)));
+  }
+  return points;
+}
+
+std::span<const Media::RayPoint> Media::sample_parts(const Ray& ray, std::span<const float> ends,
+                                                     Sampler& sampler) const {
+  constexpr int pieces = 4;  // of a span's piece in each part
+  thread_local std::vector<std::vector<MediumPiece>> parts;
+  thread_local std::vector<RayPoint> points;
+  if (parts.size() < ends.size()) parts.resize(ends.size());
+  for (std::size_t i = 0; i < ends.size(); ++i) parts[i].clear();
+  impl_->bounds.visit_spans(ray, [&](const MediumSpan& span) {
+    float from = span.near;
+    for (std::size_t i = 0; i < ends.size() && from < span.far; ++i) {
+      const float to = std::min(span.far, ends[i]);
+      if (!(from < to)) continue;
+      cut(impl_->media[span.medium], ray, {from, to, span.medium}, pieces, parts[i]);
+      from = to;
+    }
+  });
+  points.assign(ends.size(), {});
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const float total = weigh(parts[i]);
+    if (!(total > 0)) continue;
+    const float at = total * sampler.next();
+    float before = 0;
+    auto piece = parts[i].begin();
+    while (std::next(piece) != parts[i].end() && at >= before + piece->weight) before += (piece++)->weight;
+    if (piece->weight > 0) points[i] = impl_->point_in(ray, *piece, (at - before) / piece->weight, total);
   }
   return points;
 }

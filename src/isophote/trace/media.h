@@ -30,6 +30,8 @@ class Media {
 
   /// Bit i: the i-th medium's bounds hold `p`.
   std::uint32_t holding(const Vec3& p) const;
+  /// The box about the bounds of all.
+  Box bounds() const;
   /// The shortest part of a ray that has all that lies in media; near not below far where nothing does.
   Ray within(const Ray& ray) const;
   /// The largest |g| of media, by their bits.
@@ -42,13 +44,6 @@ class Media {
     Rgb scattering;
   };
   std::optional<Scatterer> scatterer(const Vec3& p, float u) const;
-  /// One of the media that hold `p` and can scatter, chosen likewise, though there may be nothing of them just there,
-  /// with its sigma_s over sigma_t of all and over the chance of the choice: for one medium, its albedo.
-  struct AlbedoOf {
-    MediumPoint point;
-    Rgb albedo;
-  };
-  std::optional<AlbedoOf> albedo(const Vec3& p, float u) const;
   /// sigma_t of all media at `p`, 1/m.
   Rgb extinction(const Vec3& p) const;
 
@@ -60,12 +55,15 @@ class Media {
   /// `sampler`. An integral along the ray is the sum of length times what the point's medium adds to the integrand. The
   /// span is overwritten by the thread's next call.
   struct RayPoint {
-    float distance, length;
+    float distance = 0, length = 0;
     MediumPoint point;
     Rgb scattering;  ///< sigma_s of the medium there, 1/m
     Rgb emission;    ///< and what it emits, W/m3/sr
   };
   std::span<const RayPoint> sample_points(const Ray& ray, int count, Sampler& sampler) const;
+  /// The same, one in each of the parts that `ends`, ascending, cut the ray into from its near end on; of length 0
+  /// where there is nothing to look for.
+  std::span<const RayPoint> sample_parts(const Ray& ray, std::span<const float> ends, Sampler& sampler) const;
 
   /// Where light that comes along the ray (ray.near to ray.far, finite or not) was scattered last: the free flight is
   /// chosen by delta tracking [Woodcock 1965] against bounds of the density, with the probabilities of [Kutz 2017]
@@ -80,8 +78,7 @@ class Media {
   /// What passes from `depths` along the ray, ascending and finite or not, to its origin: not sampled, grids cell by
   /// cell.
   struct Passage {
-    Rgb optical_depth;
-    Rgb transmittance{1.0f};     ///< exp(-optical_depth)
+    Rgb transmittance{1.0f};
     Gradient<Rgb> log_gradient;  ///< of the transmittance's logarithm as the origin moves and the far end stays, 1/m
   };
   void along(const Ray& ray, std::span<const float> depths, std::span<Passage> passages) const;

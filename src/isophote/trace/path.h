@@ -57,9 +57,9 @@ enum class FirstSegment : std::uint8_t { in_media, clear };
 /// counts directly sampled emitters (lamps, the environment's peaks) met before any specular event only where
 /// `see_lamps`; whatever is met after one counts always (no light sample could have found it). `kind` is the counter to
 /// charge, shadow rays to point and spot lights from media included; `inside` the absorption (1/m) of the medium that
-/// the ray starts in.
+/// the ray starts in; `depth` the events before.
 FirstPoint first_point(const World& world, const Ray& ray, bool see_lamps, Sampler& sampler, std::uint64_t& kind,
-                       const Rgb& inside = {}, FirstSegment first_segment = FirstSegment::in_media);
+                       const Rgb& inside = {}, FirstSegment first_segment = FirstSegment::in_media, int depth = 0);
 
 /// Light scattered at a point towards `wo`, split as the project defines it: `direct` from directly sampled emitters
 /// scattered once here, `indirect` everything else. `irradiance` is the indirect irradiance on the diffuse lobe's
