@@ -86,6 +86,7 @@ class BadUsage(ProgramTest):
             "--show-records": ("p.exr",),
             "--show-error": ("p.exr",),
             "--show-density": ("p.exr",),
+            "--slice": ("1,2,3", "1,2,3;0,0,1;5", "1,2;0,0,1", "1,2,x;0,0,1", "1,2,3;0,0,0", "1,2,3;", ";0,0,1", ""),
         }.items():
             for value in values:
                 with self.subTest(flag=flag, value=value):

@@ -1,5 +1,7 @@
 """Media from scene files through the program: methods, records on disk, refusals."""
-from program import SCENES, ProgramTest, picture_channels, quick
+import re
+
+from program import BOX, SCENES, ProgramTest, picture_channels, png_size, quick
 
 FOG = str(SCENES / "cornell-fog.toml")
 
@@ -37,3 +39,24 @@ class Media(ProgramTest):
             (("--media", "somehow"), "cache or paths"),
         ):
             self.refused(2, ("render", FOG, *flags, "-o", "x.exr"), text)
+
+    def test_pictures_of_records_in_media_are_slices(self):
+        self.done("render", FOG, *quick("--save-cache", "records"))
+        told = {}
+        for name, flags in (("default", ()), ("side", ("--slice", "4,2,2;-4,0,0")), ("behind", ("--slice", "0,0,9;0,0,1"))):
+            picture = name + ".png"
+            said = self.done("render", FOG, *quick("--load-cache", "records", "--show-records", picture, *flags)).stdout
+            told[name] = re.search(rf"^{name}\.png: media on the slice ([^ ]+), ", said, re.MULTILINE)[1]
+            self.assertEqual(png_size(self.folder / picture), (32, 32))
+        self.assertEqual(told["side"], "4,2,2;-1,0,0")
+        self.assertTrue(told["default"].endswith(";0,0,1"), told)
+        self.assertEqual(len({(self.folder / (name + ".png")).read_bytes() for name in told}), 3)
+        # What is told says the same again.
+        self.done("render", FOG, *quick("--load-cache", "records", "--show-records", "again.png", "--slice", told["side"]))
+        self.assertEqual((self.folder / "again.png").read_bytes(), (self.folder / "side.png").read_bytes())
+
+    def test_slices_without_records_in_media_are_refused(self):
+        plane = ("--slice", "1,1,1;0,0,1")
+        self.refused(2, ("render", FOG, *quick(*plane, "-o", "a.png")), "--slice", "--show-records")
+        self.refused(2, ("render", BOX, *quick(*plane, "--show-records", "a.png")), "--slice", "no media")
+        self.refused(2, ("render", FOG, *quick(*plane, "--show-records", "a.png", "--media", "paths")), "--slice", "--media cache")

@@ -117,5 +117,19 @@ TEST(SemiAxes, OfFootprintsOfEveryForm) {
   EXPECT_FLOAT_EQ(disk.height, 0.3f);
 }
 
+TEST(BallRadius, IsThatOfTheSameVolume) {
+  const Frame frame(normalize(Vec3{0.4f, -0.5f, 0.7f}));
+  const auto radius = [&](float a, float b, float c) {
+    Footprint f = Footprint::ball(std::max(a, std::max(b, c)));
+    f.shape = Sym3::outer(frame.u, 1 / (a * a)) + Sym3::outer(frame.v, 1 / (b * b)) + Sym3::outer(frame.n, 1 / (c * c));
+    return ball_radius(f);
+  };
+  EXPECT_NEAR(radius(0.5f, 0.3f, 0.2f), std::cbrt(0.03), 1e-6);
+  EXPECT_NEAR(radius(7, 7, 7), 7, 1e-5);
+  // A needle: what rounding leaves of its form along it is no more than it is at its radius.
+  EXPECT_GE(radius(1, 1e-4f, 1e-4f), 0.9 * std::cbrt(1e-8));
+  EXPECT_LE(radius(1, 1e-4f, 1e-4f), 1.1 * std::cbrt(1e-8));
+}
+
 }  // namespace
 }  // namespace isophote::test

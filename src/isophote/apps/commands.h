@@ -22,7 +22,8 @@ struct RenderRequest : SceneRequest {
   std::vector<std::string> outputs;        ///< .exr or .png
   std::string stats, preview, save_cache;  ///< files; empty: none
   std::string records_picture, error_picture, density_picture;
-  std::string record_colour;  ///< radius or error; empty: radius
+  std::string record_colour;         ///< radius or error; empty: radius
+  std::optional<std::string> slice;  ///< "X,Y,Z;NX,NY,NZ"; none: amid the records in media
   bool check = true;
   int refine = 0;  ///< times at most
 };

@@ -48,6 +48,10 @@ void add_render(CLI::App& program, app::RenderRequest& request) {
                    "radius)")
       ->type_name("radius|error")
       ->check(CLI::IsMember({"radius", "error"}).description(""));
+  verb->add_option("--slice", request.slice,
+                   "where --show-records cuts the media: a point and a normal of a plane (default: facing the camera, "
+                   "halfway through the records in media)")
+      ->type_name("X,Y,Z;NX,NY,NZ");
   verb->add_option("--show-error", request.error_picture, "write a PNG of the relative error predicted in each pixel")
       ->type_name("FILE");
   verb->add_option("--show-density", request.density_picture, "write a PNG of the records per square metre")

@@ -25,6 +25,15 @@ void tell_scale(const std::string& file, const std::string& what, const ColourSc
              scale.logarithmic ? ", logarithmic" : "");
 }
 
+/// As --slice takes it.
+void tell_slice(const std::string& file, const Plane& slice) {
+  const Vec3 p = slice.point + Vec3{}, n = slice.normal + Vec3{};  // without the sign of a zero
+  fmt::print(
+      "{}: media on the slice {:.4g},{:.4g},{:.4g};{:.4g},{:.4g},{:.4g}, rims of multiple scattering, dashed ones of "
+      "light from surfaces\n",
+      file, p.x, p.y, p.z, n.x, n.y, n.z);
+}
+
 /// One run of `isophote render`, step by step.
 class Rendering {
  public:
@@ -58,6 +67,7 @@ class Rendering {
     session_.read();
     check_scene_is_kept(request_, session_.loaded().files);
     check_against_method(request_, session_.settings(), session_.method());
+    check_against_scene(request_, session_.loaded().scene);
     session_.prepare();
     if (!request_.preview.empty())
       job().progress.preview = [this](const RgbImage& image) { write_png(request_.preview, image, exposure(image)); };
@@ -98,11 +108,15 @@ class Rendering {
     display_.clear();
     if (const std::string& file = request_.records_picture; !file.empty()) {
       const RecordColour colour = record_colour(request_);
-      const auto [picture, scale] = record_picture(job(), cache, colour);
+      const auto [picture, scale, slice] = record_picture(job(), cache, colour, wanted_slice(request_));
       write_png(file, picture, 0);
       tell_scale(file,
                  colour == RecordColour::radius ? "radius of footprints, m" : "predicted relative error at the rim",
                  scale);
+      if (slice)
+        tell_slice(file, *slice);
+      else if (request_.slice)
+        fmt::print("{}: there is no record in media\n", file);
     }
     if (!wants_maps()) return;
     const Clock begin = Clock::now();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "isophote/apps/output_files.h"
@@ -54,6 +55,8 @@ void check_request(const RenderRequest& request) {
       throw UsageError(fmt::format("-o {}: the name must end in .exr or .png", output));
   if (!request.record_colour.empty() && request.records_picture.empty())
     throw UsageError("--record-colour is of the picture of --show-records: give that too");
+  if (wanted_slice(request) && request.records_picture.empty())
+    throw UsageError("--slice is of the picture of --show-records: give that too");
   for (const NamedFile& file : pictures_to_look_at(request)) require_png(file);
   check_distinct(all_outputs(request));
   check_kept(Files{{"the scene", request.scene}}, all_outputs(request));
@@ -65,6 +68,28 @@ void check_scene_is_kept(const RenderRequest& request, std::span<const std::stri
   Files inputs;
   for (const std::string& file : scene_files) inputs.push_back({file + ", which the scene is read from", file});
   check_kept(inputs, all_outputs(request));
+}
+
+std::optional<Plane> wanted_slice(const RenderRequest& request) {
+  if (!request.slice) return std::nullopt;
+  const std::string& text = *request.slice;
+  const std::size_t end = text.find(';');
+  if (end == std::string::npos) throw UsageError(fmt::format("--slice: wants X,Y,Z;NX,NY,NZ, not '{}'", text));
+  try {
+    const Vec3 point = parsed_triple(text.substr(0, end));
+    const Vec3d normal(parsed_triple(text.substr(end + 1)));
+    if (!(length(normal) > 0)) throw UsageError("the normal is 0");
+    return Plane{point, Vec3(normalize(normal))};
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("--slice: {}", error.what()));
+  }
+}
+
+void check_against_scene(const RenderRequest& request, const Scene& scene) {
+  const bool scatters = std::any_of(scene.media.begin(), scene.media.end(),
+                                    [](const Medium& medium) { return !is_black(medium.scattering); });
+  if (request.slice && !scatters)
+    throw UsageError(fmt::format("--slice cuts records in media: {} has no media that scatter", request.scene));
 }
 
 void check_outputs(const RenderRequest& request) {
@@ -83,6 +108,8 @@ void check_against_method(const RenderRequest& request, const RenderSettings& se
           "--refine works towards an --error, with caches built in rounds: it takes no --a, --records, "
           "--order lazy or method 'path'");
   }
+  if (request.slice && method.caches() && !method.volume.caches())
+    throw UsageError("--slice cuts records in media: without --media cache there are none");
   if (method.caches()) return;
   const std::pair<const char*, const std::string*> needing_records[] = {{"--save-cache", &request.save_cache},
                                                                         {"--load-cache", &request.load_cache},

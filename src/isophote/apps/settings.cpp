@@ -175,17 +175,26 @@ constexpr Option table[] = {
      [](S& s, T t) { s.seed = number<std::uint64_t>(t, 0, 9e15); }},
 };
 
+/// A point of --camera.
 Vec3 point(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<float> v;
-  for (std::string part; std::getline(in, part, ',');) v.push_back(number<float>(part, -1e30, 1e30));
-  if (v.size() != 3) throw UsageError(fmt::format("--camera: wants x,y,z, not '{}'", text));
-  return {v[0], v[1], v[2]};
+  try {
+    return parsed_triple(text);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("--camera: {}", error.what()));
+  }
 }
 
 }  // namespace
 
 std::span<const Option> options() { return table; }
+
+Vec3 parsed_triple(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<float> v;
+  for (std::string part; std::getline(in, part, ',');) v.push_back(number<float>(part, -1e30, 1e30));
+  if (v.size() != 3) throw UsageError(fmt::format("wants x,y,z, not '{}'", text));
+  return {v[0], v[1], v[2]};
+}
 
 void apply_setting(RenderSettings& settings, const std::string& table_name, const std::string& name,
                    const std::string& value, const std::string& place) {

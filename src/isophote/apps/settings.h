@@ -54,6 +54,9 @@ std::span<const Option> options();
 void apply_setting(RenderSettings& settings, const std::string& table, const std::string& name,
                    const std::string& value, const std::string& place);
 
+/// "x,y,z". Throws UsageError saying what it wants.
+Vec3 parsed_triple(const std::string& text);
+
 /// The method these settings ask for, its combination checked.
 Method chosen_method(const RenderSettings& settings);
 

@@ -36,6 +36,16 @@ OnScreen on_screen(const Site& record, const Sight& sight);
 /// mark(x, y, sight) gives the colour at (x, y) of the whole picture, if anything is drawn there; there is no sight
 /// where no record could be.
 using Mark = std::function<std::optional<Rgb>(float x, float y, const std::optional<Sight>& sight)>;
-RgbImage marked_picture(const Job& job, const RecordCache& cache, const Window& window, const Mark& mark);
+
+/// What is seen at one point of the picture: a mark, or light that is dimmed as irradiance is, or black.
+struct Shown {
+  std::optional<Rgb> mark, light;
+};
+/// What hides surfaces and their marks along a ray of the camera, whose first surface of any kind is at the distance
+/// `surface`, if anything does.
+using Screen = std::function<std::optional<Shown>(const Ray& ray, float surface, RayCounts& counts)>;
+
+RgbImage marked_picture(const Job& job, const RecordCache& cache, const Window& window, const Mark& mark,
+                        const Screen& screen = {});
 
 }  // namespace isophote

@@ -1,16 +1,17 @@
 #include "isophote/integrate/record_picture.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "isophote/cache/radiance_cache.h"
-#include "isophote/integrate/marked_picture.h"
+#include "isophote/cache/volume_cache.h"
 #include "isophote/validity/semi_axes.h"
 
 namespace isophote {
 namespace {
 
 constexpr float dot_radius = 1.6f, line_width = 1.2f;  // pixels
-const Rgb grey(0.35f);                                 // of records of radiance
+const Rgb grey(0.35f);  // of records of radiance, and of those in media where colours tell errors
 
 /// What is drawn at one point of the picture.
 class Marks {
@@ -38,11 +39,19 @@ std::vector<float> told_by_colour(const Job& job, std::span<const Record> record
   return values;
 }
 
+ColourScale scale_of(const RecordCache& cache, std::vector<float> values, RecordColour colour) {
+  if (cache.volumes() && colour == RecordColour::radius)
+    for (const VolumeCache* part : {&cache.volumes()->surfaces, &cache.volumes()->media})
+      for (const VolumeRecord& r : part->records()) values.push_back(ball_radius(r.footprint));
+  return colour_scale(std::move(values), true);
+}
+
 }  // namespace
 
-ColouredPicture record_picture(const Job& job, const RecordCache& cache, RecordColour colour) {
+ColouredPicture record_picture(const Job& job, const RecordCache& cache, RecordColour colour,
+                               const std::optional<Plane>& slice) {
   const std::vector<float> values = told_by_colour(job, cache.records(), colour);
-  const ColourScale scale = colour_scale(values, true);
+  const ColourScale scale = scale_of(cache, values, colour);
   const auto mark = [&](float, float, const std::optional<Sight>& sight) {
     Marks irradiance, radiance;
     if (!sight) return irradiance.shown();
@@ -54,7 +63,14 @@ ColouredPicture record_picture(const Job& job, const RecordCache& cache, RecordC
                                  [&](const RadianceRecord& record) { radiance.take(record, *sight, grey); });
     return radiance.shown();
   };
-  return {marked_picture(job, cache, Window(job), mark), scale};
+  std::optional<Plane> plane = plane_amid_records(job, cache);
+  if (plane && slice) plane = slice;
+  Screen screen;
+  if (plane)
+    screen = volume_slice(job, cache, *plane, [&](const VolumeRecord& record) {
+      return colour == RecordColour::radius ? scale(ball_radius(record.footprint)) : grey;
+    });
+  return {marked_picture(job, cache, Window(job), mark, screen), scale, plane};
 }
 
 }  // namespace isophote

@@ -18,4 +18,7 @@ struct SemiAxes {
 /// Holds for footprints as metrics make them: the record's normal is one of the shape's axes.
 SemiAxes semi_axes(const Record& record);
 
+/// The radius of the ball of the same volume, of a footprint in media.
+float ball_radius(const Footprint& footprint);
+
 }  // namespace isophote
