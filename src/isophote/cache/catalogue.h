@@ -157,6 +157,8 @@ struct Method {
   /// A record of radiance in media, which hold it as their bits say, by the volume method.
   VolumeRecord make_volume_record(const SphereGather& gather, VolumePart part, std::uint32_t media, int bands,
                                   const View& view) const;
+  /// Where what the estimator says is known already.
+  VolumeRecord make_volume_record(const Vec3& position, VolumeJet jet, std::uint32_t media, const View& view) const;
   void settle(const SettlingOf<VolumeRecord>& settling, std::span<const std::uint32_t> fresh) const;
   /// What `predicted_error` wants to know of records made by this method.
   ErrorModel error_model() const;

@@ -1,5 +1,5 @@
-
 #include <cmath>
+#include <utility>
 
 #include "isophote/cache/catalogue_rows.h"
 #include "isophote/derivatives/jarosz_2008a.h"
@@ -86,10 +86,15 @@ float threshold(const VolumeMetric& metric, double error) {
 
 VolumeRecord Method::make_volume_record(const SphereGather& gather, VolumePart part, std::uint32_t media, int bands,
                                         const View& view) const {
+  return make_volume_record(gather.position, volume.estimator->estimate(gather, part, bands), media, view);
+}
+
+VolumeRecord Method::make_volume_record(const Vec3& position, VolumeJet jet, std::uint32_t media,
+                                        const View& view) const {
   VolumeRecord record;
-  record.position = gather.position;
+  record.position = position;
   record.media = media;
-  record.jet = volume.estimator->estimate(gather, part, bands);
+  record.jet = std::move(jet);
   MetricSettings settings_here = volume.settings;
   // A gradient that sees an edge may say of its surroundings what the samples' own do not.
   if (volume.metric->by_gradient && volume.estimator->sees_occluders) settings_here.bounds.gradient = true;
