@@ -24,6 +24,7 @@ class SetUp {
  public:
   SetUp(const std::string& scene, const std::string& size, bool fixed_light)
       : loaded_(load_scene(scene, [](const std::string&) {})), rays_(loaded_.scene), emitters_(loaded_.scene) {
+    if (!loaded_.scene.media.empty()) media_.emplace(loaded_.scene);
     const std::size_t cross = size.find('x');
     if (cross == std::string::npos) throw UsageError("a size is WIDTHxHEIGHT, not '" + size + "'");
     width_ = std::stoi(size.substr(0, cross)), height_ = std::stoi(size.substr(cross + 1));
@@ -34,6 +35,7 @@ class SetUp {
 
   Job job() const {
     Job job{World{loaded_.scene, rays_, emitters_}, loaded_.scene.cameras.at(0)};
+    job.world.media = media_ ? &*media_ : nullptr;
     job.width = width_, job.height = height_;
     job.parallel = all_threads();
     job.light = light_ ? &*light_ : nullptr;
@@ -54,6 +56,7 @@ class SetUp {
   LoadedScene loaded_;
   RayCaster rays_;
   Emitters emitters_;
+  std::optional<Media> media_;
   std::optional<RecordCache> light_;
   int width_ = 0, height_ = 0;
 };

@@ -26,6 +26,7 @@ Method variant(const std::string& text) {
   const std::vector<std::string> parts = split(text, '+');
   Method method = find_method(parts.front());
   method.secondary = Secondary::off, method.adaptive = false;  // gathers are shared
+  method.volume = {};                                          // irradiance is what is compared
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const std::size_t equals = std::min(parts[i].find('='), parts[i].size() - 1);
     change(method, parts[i].substr(0, equals), parts[i].substr(equals + 1));

@@ -26,6 +26,11 @@ class Media(ProgramTest):
         mean = lambda values: sum(values) / len(values)
         self.assertAlmostEqual(mean(a["G"]), mean(b["G"]), delta=0.02 * mean(a["G"]))
 
+    def test_aspect_is_of_records_in_media_too(self):
+        for flags, aspect in (((), 4), (("--aspect", "1"), 1)):
+            self.stats(FOG, *quick("--method", "marco2018", *flags, "--save-cache", "records"))
+            self.assertIn(b", aspect %d, " % aspect, (self.folder / "records").read_bytes())
+
     def test_paths_make_no_records_in_media(self):
         stats = self.stats(FOG, *quick("--media", "paths", "-o", "a.exr"))
         self.assertIsNone(stats["media"])

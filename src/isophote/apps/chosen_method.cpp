@@ -86,7 +86,7 @@ VolumeMethod chosen_volume(const RenderSettings& s, const Method& method) {
   else
     volume.settings.bounds = {};
   if (!volume.metric->by_gradient) volume.settings.bounds.gradient = false;
-  if (!volume.metric->elliptical) volume.settings.aspect = 1;
+  volume.settings.aspect = volume.metric->elliptical ? s.aspect.value_or(volume.settings.aspect) : 1;
   const double error = s.a ? method.error() : s.error.value_or(default_error);
   volume.settings.a = s.media_a.value_or(threshold(*volume.metric, error));
   return volume;

@@ -167,7 +167,7 @@ constexpr Option table[] = {
      [](S& s, T t) { s.bound_neighbours = t == "off" ? 0 : number<float>(t, 0, 1e6); }, true},
     {"method", "extrapolate", "0|1|2", "by values alone, gradients, or the Hessian too (default: the method's)",
      [](S& s, T t) { s.extrapolate = number<int>(t, 0, 2); }, true},
-    {"method", "aspect", "N", "of elliptical footprints at most; 1: disks",
+    {"method", "aspect", "N", "of elliptical footprints at most; 1: disks, and balls in media",
      [](S& s, T t) { s.aspect = number<float>(t, 1, 1e6); }, true},
     {"method", "weight", "ward|tent|tabellion", "how the weight of a record falls towards its rim",
      [](S& s, T t) { s.weight = falloff(t); }, true},

@@ -1,5 +1,5 @@
-
 #include <cmath>
+#include <utility>
 
 #include "isophote/cache/catalogue_rows.h"
 #include "isophote/derivatives/jarosz_2008a.h"
