@@ -70,6 +70,19 @@ TEST(MediaCaches, SurfacesAreCachedRightWhereMediaAreLeftToPaths) {
   EXPECT_NEAR(level(job) / paths, 1, 0.02);
 }
 
+TEST(MediaCaches, WhatMediaHideOfTheSkyIsNotTransparent) {
+  const Stage stage(scenes::cloud_under_a_white_sky(scenes::medium(Rgb(0.5f), Rgb(0.2f), {{-1, -1, -1}, {1, 1, 1}})));
+  const auto opacity = [&](const char* name) {
+    const ExrFile file = render_all(foggy_job(stage, name, 16, 64)).exr();
+    double sum = 0;
+    for (const float alpha : file.find("A")->values) sum += static_cast<double>(alpha);
+    return sum / 256;
+  };
+  const double paths = opacity("path");
+  EXPECT_GT(paths, 0.3);
+  EXPECT_NEAR(opacity("jarosz2008a") / paths, 1, 0.1);
+}
+
 TEST(MediaCaches, ThreadsDoNotChangeThem) {
   const Stage stage(foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0.3f));
   for (const char* name : {"jarosz2008a", "cached"}) {

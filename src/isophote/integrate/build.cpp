@@ -54,7 +54,7 @@ class Builder {
       begin_with_survey(candidates);
       cover(std::move(candidates));
       volumes_.cover(stride, 0, report_.rays);
-      report_.cancelled = report_.cancelled || job_.progress.stop();
+      report_.cancelled = report_.cancelled || volumes_.cancelled();
       adapt(stride, 0);
       if (job_.progress.preview) job_.progress.preview(coarse_picture(job_, cache_, stride));
     }
@@ -65,7 +65,7 @@ class Builder {
       begin_with_survey(left);
       ++report_.passes;
       const std::size_t in_media = volumes_.cover(1, pass % job_.samples, report_.rays);
-      report_.cancelled = report_.cancelled || job_.progress.stop();
+      report_.cancelled = report_.cancelled || volumes_.cancelled();
       const bool last = static_cast<double>(left.size() + in_media) < good_coverage * pixels;
       if (!last || !shrinks_others()) cover(std::move(left));
       if (last) break;

@@ -33,7 +33,9 @@ std::size_t VolumeBuilder::cover(int stride, int sample, RayCounts& rays) {
     return length_squared(a.position - b.position) < reach * reach && a.media == b.media;
   };
   if (survey(candidates, rays)) leave_wanting(candidates, rays);
-  while (!candidates.empty() && !job_.progress.stop()) {
+  while (!candidates.empty()) {
+    cancelled_ = job_.progress.stop();
+    if (cancelled_) break;
     const std::vector<Candidate> picked = pick_spread(candidates, near);
     std::vector<Jets> jets = jets_at(picked, rays);
     add(picked, jets);

@@ -19,6 +19,8 @@ class VolumeBuilder {
   std::size_t cover(int stride, int sample, RayCounts& rays);
   /// Makes lookup fast again after radii have shrunk.
   void finish();
+  /// Did the host stop it?
+  bool cancelled() const { return cancelled_; }
   /// Rounds so far.
   std::size_t rounds() const { return rounds_; }
 
@@ -52,6 +54,7 @@ class VolumeBuilder {
   const Job& job_;
   RecordCache& cache_;
   std::size_t rounds_ = 0;
+  bool cancelled_ = false;
   std::array<Pilot, 2> pilots_{};  // by VolumePart
 };
 

@@ -16,7 +16,8 @@ struct PixelSample {
   Rgb albedo;            ///< of the diffuse lobe there
   Vec3 normal;           ///< there, normal map included, world space
   float depth = 0;       ///< along the camera's axis, to the first hit of any kind
-  float alpha = 0;       ///< 1 on a surface, 0 in the sky or where a cancelled render knows nothing
+  float alpha = 0;       ///< 1 on a surface, 0 in the sky or where a cancelled render knows nothing; before the sky,
+                         ///< what media take of its light
 };
 
 /// Sums of samples, row by row: rows may have different numbers of samples.

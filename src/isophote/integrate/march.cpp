@@ -5,8 +5,8 @@
 
 namespace isophote {
 
-Marched march(const World& world, const FarLight& from, const Ray& way, int depth, Sampler& sampler,
-              RayCounts& counts) {
+Marched march(const World& world, const FarLight& from, const Ray& way, int depth, WhereUncovered uncovered,
+              Sampler& sampler, RayCounts& counts) {
   constexpr int points = 2;
   Marched out;
   if (depth < world.max_depth) out.direct = placed_lights_along(world, way, {}, sampler, counts);
@@ -19,6 +19,10 @@ Marched march(const World& world, const FarLight& from, const Ray& way, int dept
       out.direct += weight * at.scattering *
                     direct_light(world, at.point, way.direction, PunctualKinds::directional, sampler, counts);
       out.indirect += weight * at.scattering * *indirect;
+    } else if (uncovered == WhereUncovered::nothing) {
+      out = {};
+      out.covered = false;
+      return out;
     } else {
       const Scattered path = scatter(world, at.point, way.direction, depth, sampler, counts);
       out.direct += weight * at.scattering * path.direct;

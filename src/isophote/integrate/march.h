@@ -8,12 +8,16 @@ namespace isophote {
 /// and what they leave of the light from its end.
 struct Marched {
   Rgb direct, indirect, transmittance{1.0f};
-  bool covered = true;  ///< false: somewhere no record served, and a path went on instead
+  bool covered = true;  ///< false: somewhere no record served
 };
+
+/// What becomes of places that no record serves: a path goes on there, or nothing is known of the whole way.
+enum class WhereUncovered : std::uint8_t { path, nothing };
 
 /// Looks at a few places of the way, chosen by what is seen from there, for light of directly sampled emitters, by
 /// light sampling, and for the rest, `from` records of radiance in media or by a path where none serves. The world has
 /// media; `depth` counts the scattering events before.
-Marched march(const World& world, const FarLight& from, const Ray& way, int depth, Sampler& sampler, RayCounts& counts);
+Marched march(const World& world, const FarLight& from, const Ray& way, int depth, WhereUncovered uncovered,
+              Sampler& sampler, RayCounts& counts);
 
 }  // namespace isophote

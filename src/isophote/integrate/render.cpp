@@ -25,7 +25,10 @@ Seen shade_sample(const Job& job, const RecordCache* cache, const Ray& ray, cons
   PixelSample& out = result.sample;
   out.direct = seen.emission;
   const float distance = seen.first_distance < infinity ? seen.first_distance : seen.path_length;
-  if (distance == infinity) return result;
+  if (distance == infinity) {
+    out.alpha = 1 - mean(seen.throughput);  // what media took on the way
+    return result;
+  }
   out.alpha = 1;
   out.depth = distance * dot(ray.direction, job.camera.forward);
   if (seen.medium_point) {
@@ -66,7 +69,10 @@ Seen see(const Job& job, const RecordCache* cache, const Ray& ray, Uncovered unc
                         counts);
   FirstPoint seen = first_point(job.world, ray, true, stream, counts.camera, {}, FirstSegment::clear);
   const Ray way{ray.origin, ray.direction, 0, seen.first_distance};
-  const Marched marched = march(job.world, {cache, nullptr, nullptr, &job.method.glossy}, way, 0, stream, counts);
+  const auto where = uncovered == Uncovered::skip ? WhereUncovered::nothing : WhereUncovered::path;
+  const Marched marched =
+      march(job.world, {cache, nullptr, nullptr, &job.method.glossy}, way, 0, where, stream, counts);
+  if (!marched.covered && uncovered == Uncovered::skip) return {{}, false};
   seen.emission *= marched.transmittance, seen.throughput *= marched.transmittance;
   Seen result = shade_sample(job, cache, ray, seen, uncovered, stream, counts);
   result.sample.direct += marched.direct;
