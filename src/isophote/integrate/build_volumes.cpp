@@ -130,7 +130,7 @@ void VolumeBuilder::add(std::span<const Candidate> places, std::span<Jets> jets)
       view.pixel = c.pixel;
       view.picture = c.pixel * static_cast<float>(job_.height);
       view.scene_scale = job_.world.rays.scene_scale();
-      view.pilot = pilots_[index(part)];
+      view.pilot = pilot_;
       fresh.push_back(cache.insert(job_.method.make_volume_record(c.position, std::move(*jet), c.media, view)));
     }
     job_.method.settle(cache.settling(), fresh);
@@ -138,18 +138,20 @@ void VolumeBuilder::add(std::span<const Candidate> places, std::span<Jets> jets)
 }
 
 bool VolumeBuilder::survey(std::span<Candidate> candidates, RayCounts& rays) {
-  if (job_.method.volume.metric->needs < 2 || pilots_[0].known || candidates.empty()) return false;
+  if (job_.method.volume.metric->needs < 2 || pilot_.known || candidates.empty()) return false;
   const std::span<Candidate> places = candidates.first(std::min(candidates.size(), surveyed_places));
   std::vector<Jets> jets = jets_at(places, rays);
-  for (const VolumePart part : parts) {
-    double value = 0, rate = 0, count = 1e-30;
+  // Both parts add up to one picture: they share its mean and the error that is allowed.
+  const auto mean_of = [&](const auto& value) {
+    double sum = 0;
     for (const Jets& each : jets)
-      if (const auto& jet = each[index(part)]) value += mean_over_directions(*jet), ++count;
-    const auto mean = static_cast<float>(value / count);
-    for (const Jets& each : jets)
-      if (const auto& jet = each[index(part)]) rate += static_cast<double>(volume_error_rate(*jet, mean));
-    pilots_[index(part)] = {true, static_cast<float>(rate / count), mean};
-  }
+      for (const auto& jet : each)
+        if (jet) sum += static_cast<double>(value(*jet));
+    return static_cast<float>(sum / static_cast<double>(jets.size()));
+  };
+  const float mean = mean_of(mean_over_directions);
+  const float rate = mean_of([&](const VolumeJet& jet) { return volume_error_rate(jet, mean); });
+  pilot_ = {true, rate / static_cast<float>(std::size(parts)), mean};
   for (std::size_t i = 0; i < places.size(); ++i)
     if (still_wants(places[i], rays)) add(places.subspan(i, 1), std::span(jets).subspan(i, 1));
   return true;

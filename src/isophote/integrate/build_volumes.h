@@ -55,7 +55,7 @@ class VolumeBuilder {
   RecordCache& cache_;
   std::size_t rounds_ = 0;
   bool cancelled_ = false;
-  std::array<Pilot, 2> pilots_{};  // by VolumePart
+  Pilot pilot_{};
 };
 
 }  // namespace isophote
