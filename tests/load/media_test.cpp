@@ -96,6 +96,11 @@ TEST_F(MediaFile, ErrorsNameTheirLine) {
             ":3: [[media]] is too dense: sigma_t comes to 1.4401e+11/m, above 1e+09");
   EXPECT_EQ(refusal("[[media]]\nemission = 1e25\nheight = {scale = 0.02, base = 0.1}\n"),
             ":3: [[media]] is too bright: emission comes to 1.06865e+38, above 1e+30");
+  std::string all_but_a_triangle;
+  for (const char* name : {"floor", "brick", "nameless"})
+    all_but_a_triangle += std::string("[[media]]\ndensity = 1\nmesh = '") + name + "'\n";
+  EXPECT_EQ(refusal(all_but_a_triangle + "[[media]]\ndensity = 1\n"),
+            ":12: [[media]] needs a box: what is to be seen encloses nothing");
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "isophote/scene/density_grid.h"
 #include "isophote/trace/media.h"
 #include "support/media.h"
 #include "support/statistics.h"
@@ -49,6 +52,70 @@ TEST(Media, TransmittanceOfUniformAndHeightFog) {
     const Rgb through = media.transmittance(inside, 0);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(through[c], std::exp(-column * sigma[c]), 2e-6) << d.x << " " << d.y;
   }
+}
+
+TEST(Media, HeightFogIsMetFromFarAbove) {
+  // Where its density is less than any number.
+  for (const auto& [scale, top] : {std::pair{1.0f, 120.0f}, {0.05f, 40.0f}, {1.0f, 650.0f}}) {
+    Medium fog = scenes::medium(Rgb(0.6f / scale), {}, {{-1, 0, -1}, {1, top, 1}});
+    fog.density = HeightDensity{0, scale};
+    const Scene scene = scene_of({fog});
+    const Media media(scene);
+    const Ray down{{0, top + 1, 0}, {0, -1, 0}, 0, infinity}, up{{0, -1, 0}, {0, 1, 0}, 0, infinity};
+    for (const Ray& ray : {down, up}) {
+      EXPECT_NEAR(media.transmittance(ray, 0).g, std::exp(-0.6), 1e-5) << scale << " " << top;
+      Estimate passed;
+      for (int i = 0; i < 20000; ++i) {
+        Sampler sampler = sampler_of(5, i);
+        Rgb throughput(1.0f), emission;
+        passed.add(media.collide(ray, sampler, throughput, emission) ? 0 : throughput.g);
+      }
+      expect_mean(passed, std::exp(-0.6), 0.02);
+    }
+    const float depth = top + 1;
+    Media::Passage passage;
+    media.along(down, {&depth, 1}, {&passage, 1});
+    EXPECT_NEAR(passage.transmittance.g, std::exp(-0.6), 1e-5);
+    EXPECT_TRUE(is_finite(passage.log_gradient.x + passage.log_gradient.y + passage.log_gradient.z));
+  }
+}
+
+/// What a ray sees of sources of sigma_s each, by points chosen along it.
+std::array<Estimate, 3> seen_of_sources(const Scene& scene, const Ray& ray) {
+  const Media media(scene);
+  std::array<Estimate, 3> seen;
+  for (int i = 0; i < 4000; ++i) {
+    Sampler sampler = sampler_of(6, i);
+    Rgb sum;
+    for (const Media::RayPoint& at : media.sample_points(ray, 2, sampler))
+      sum += at.scattering * media.transmittance({ray.origin, ray.direction, 0, at.distance}, sampler.next_bits()) *
+             at.length;
+    for (int c = 0; c < 3; ++c) seen[c].add(sum[c]);
+  }
+  return seen;
+}
+
+TEST(Media, PointsAreFoundWhereAnyChannelSees) {
+  const Rgb absorption{50, 0.05f, 0.3f};
+  const Scene scene = scene_of({scenes::medium(Rgb(0.05f), absorption, cube)});
+  const auto seen = seen_of_sources(scene, {{-3, 0, 0}, {1, 0, 0}, 0, infinity});
+  for (int c = 0; c < 3; ++c) {
+    const double sigma = absorption[c] + 0.05;
+    expect_mean(seen[c], 0.05 * (1 - std::exp(-2 * sigma)) / sigma, 0.1);
+  }
+}
+
+TEST(Media, PointsAreFoundBehindEmptyAirInADenseGrid) {
+  constexpr int n = 32;
+  std::vector<float> values;
+  for (int i = 0; i < n * n * n; ++i) values.push_back(i % n < 24 ? 0.0f : 1.0f);
+  const double size = 2.0 / (n - 1);
+  Affine to_world;
+  to_world.x = {size, 0, 0}, to_world.y = {0, size, 0}, to_world.z = {0, 0, size}, to_world.origin = {-1, -1, -1};
+  Medium smoke = scenes::medium(Rgb(900), Rgb(100), cube);
+  smoke.density = DensityGrid::from_values({n, n, n}, std::move(values), to_world);
+  const Scene scene = scene_of({smoke});
+  for (const Estimate& e : seen_of_sources(scene, {{-3, 0, 0}, {1, 0, 0}, 0, infinity})) expect_mean(e, 0.9, 0.15);
 }
 
 TEST(Media, FlightsEndInWhatIsAsGoodAsSolid) {

@@ -129,7 +129,7 @@ void VolumeBuilder::add(std::span<const Candidate> places, std::span<Jets> jets)
       View view;
       view.pixel = c.pixel;
       view.picture = c.pixel * static_cast<float>(job_.height);
-      view.scene_scale = job_.world.rays.scene_scale();
+      view.scene_scale = std::max(job_.world.rays.scene_scale(), job_.world.media->bounds().diagonal());
       view.pilot = pilot_;
       fresh.push_back(cache.insert(job_.method.make_volume_record(c.position, std::move(*jet), c.media, view)));
     }

@@ -41,10 +41,27 @@ Box box_of(const ClosedMesh& mesh) {
   return box;
 }
 
+using Sources = std::vector<SceneToml::Medium>;
+
+bool bounds_media(const Mesh& mesh, const Sources& sources) {
+  return std::any_of(sources.begin(), sources.end(), [&](const SceneToml::Medium& source) {
+    return source.boundary && is_called(mesh, source.boundary->mesh);
+  });
+}
+
+/// Of what is to be seen.
+Box seen_bounds(const Scene& scene, const Sources& sources) {
+  Box box;
+  for (const Mesh& mesh : scene.meshes)
+    if (!bounds_media(mesh, sources))
+      for (const Vec3& p : mesh.positions) box.extend(p);
+  return box;
+}
+
 class MediaReader {
  public:
-  MediaReader(const std::filesystem::path& folder, MemoryBudget& budget, const Scene& scene)
-      : folder_(folder), budget_(budget), scene_(scene), scene_bounds_(scene.bounds()) {}
+  MediaReader(const std::filesystem::path& folder, MemoryBudget& budget, const Scene& scene, const Sources& sources)
+      : folder_(folder), budget_(budget), scene_(scene), seen_bounds_(seen_bounds(scene, sources)) {}
 
   Medium read(const SceneToml::Medium& source) {
     Medium medium;
@@ -81,7 +98,14 @@ class MediaReader {
     else if (const auto* density = std::get_if<GridDensity>(&medium.density))
       medium.bounds = (*density)->world_bounds();
     else
-      medium.bounds = scene_bounds_;
+      medium.bounds = scene_box(source);
+  }
+
+  const Box& scene_box(const SceneToml::Medium& source) const {
+    const Vec3 size = seen_bounds_.upper - seen_bounds_.lower;
+    if (!(size.x > 0 && size.y > 0 && size.z > 0))
+      throw UserError(fmt::format("{}: [[media]] needs a box: what is to be seen encloses nothing", source.place));
+    return seen_bounds_;
   }
 
   /// Refuses media that are somewhere denser or brighter than numbers are good for.
@@ -107,24 +131,20 @@ class MediaReader {
   const std::filesystem::path& folder_;
   MemoryBudget& budget_;
   const Scene& scene_;
-  Box scene_bounds_;
+  Box seen_bounds_;
   std::map<std::tuple<std::string, std::string, double>, GridDensity> grids_;
   std::vector<std::string> files_;
 };
 
 }  // namespace
 
-void add_media(const std::vector<SceneToml::Medium>& sources, const std::filesystem::path& folder, MemoryBudget& budget,
-               Scene& scene, std::vector<std::string>& files) {
+void add_media(const Sources& sources, const std::filesystem::path& folder, MemoryBudget& budget, Scene& scene,
+               std::vector<std::string>& files) {
   if (sources.empty()) return;
-  MediaReader reader(folder, budget, scene);
+  MediaReader reader(folder, budget, scene, sources);
   for (const SceneToml::Medium& source : sources) scene.media.push_back(reader.read(source));
   files.insert(files.end(), reader.files().begin(), reader.files().end());
-  std::erase_if(scene.meshes, [&](const Mesh& mesh) {
-    return std::any_of(sources.begin(), sources.end(), [&](const SceneToml::Medium& source) {
-      return source.boundary && is_called(mesh, source.boundary->mesh);
-    });
-  });
+  std::erase_if(scene.meshes, [&](const Mesh& mesh) { return bounds_media(mesh, sources); });
 }
 
 }  // namespace isophote

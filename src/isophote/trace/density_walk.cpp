@@ -16,14 +16,29 @@ FlightEnd fly_uniform(float from, float to, float amount) {
   return distance < to ? FlightEnd{distance, 1} : FlightEnd{};
 }
 
-// Density d0 exp(-k t) at t from the start has the column d0 (1 - exp(-k t)) / k: t = -log(1 - k amount / d0) / k.
+/// The logarithm of density along a ray is start - slope t: far above the fog density itself would be 0.
+struct HeightLine {
+  double start, slope;
+
+  HeightLine(const HeightDensity& d, const Ray& ray, float from)
+      : start((d.base - (ray.origin.y + static_cast<double>(from) * ray.direction.y)) / d.height),
+        slope(static_cast<double>(ray.direction.y) / d.height) {}
+};
+
+// Up to t the column is (1 - exp(-slope t)) exp(start) / slope: t = -log(1 - slope amount exp(-start)) / slope.
 FlightEnd fly_through_height(const HeightDensity& d, const Ray& ray, float from, float to, float amount) {
-  const float start = at_height(d, ray.origin.y + from * ray.direction.y), k = ray.direction.y / d.height;
-  if (!(start > 0)) return {};
-  const float ratio = amount / start;
-  if (!(k * ratio < 1)) return {};
-  const float distance = from + (std::abs(k * ratio) < 1e-6f ? ratio : -std::log1p(-k * ratio) / k);
-  return distance < to ? FlightEnd{distance, at_height(d, ray.origin.y + distance * ray.direction.y)} : FlightEnd{};
+  constexpr double large = 600;  // whose exponential is near to infinity
+  const auto [start, slope] = HeightLine(d, ray, from);
+  const double turn = slope * amount, ratio = turn * std::exp(-start);
+  if (!(ratio < 1)) return {};
+  double way = amount * std::exp(-start);
+  if (slope < 0 && -start > large && amount > 0)
+    way = (start - std::log(-turn)) / slope;
+  else if (std::abs(ratio) > 1e-6)
+    way = -std::log1p(-ratio) / slope;
+  const auto distance = static_cast<float>(from + way);
+  const float bound = at_height(d, ray.origin.y + distance * ray.direction.y);
+  return distance < to && bound > 0 ? FlightEnd{distance, bound} : FlightEnd{};
 }
 
 /// Visits the cubes of `size` into which a grid is cut that a ray crosses, from `from` on, in its own parameter.
@@ -71,17 +86,19 @@ FlightEnd fly_through_grid(const DensityGrid& grid, const Ray& ray, float from, 
 
 Columns uniform_columns(float from, float to) { return {static_cast<double>(to) - from, {}, {}}; }
 
-/// int_0^1 exp(-k u) du and int_0^1 u exp(-k u) du.
+/// int_0^1 exp(-k u) du and int_0^1 u exp(-k u) du, k not below 0.
 std::array<double, 2> exponential_moments(double k) {
-  if (std::abs(k) < 1e-3) return {1 - k / 2 + k * k / 6, 0.5 - k / 3 + k * k / 8};
+  if (k < 1e-3) return {1 - k / 2 + k * k / 6, 0.5 - k / 3 + k * k / 8};
   const double e = std::exp(-k);
   return {-std::expm1(-k) / k, (1 - e * (1 + k)) / (k * k)};
 }
 
 Columns height_columns(const HeightDensity& d, const Ray& ray, float from, float to) {
-  const double start = at_height(d, ray.origin.y + from * ray.direction.y), size = static_cast<double>(to) - from;
-  const auto [m0, m1] = exponential_moments(size * ray.direction.y / d.height);
-  const double column = start * size * m0, moment = from * column + start * size * size * m1;
+  const HeightLine line(d, ray, from);
+  const double size = static_cast<double>(to) - from, decay = line.slope * size;
+  const auto [m0, m1] = exponential_moments(std::abs(decay));  // from the end where it is denser
+  const double lower = std::exp(line.start - std::min(decay, 0.0)) * size;
+  const double column = lower * m0, moment = from * column + lower * size * (decay < 0 ? m0 - m1 : m1);
   return {column, {0, -column / d.height, 0}, {0, -moment / d.height, 0}};
 }
 

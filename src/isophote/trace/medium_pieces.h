@@ -11,15 +11,15 @@ namespace isophote {
 struct MediumPiece {
   std::uint32_t medium;
   float near, size;
-  float scattering, extinction;  ///< 1/m, about, in the mean over channels; the former with what is emitted
-  float weight;                  ///< how much is seen of it
+  Rgb scattering, extinction;  ///< 1/m, about; the former with what is emitted
+  float weight;                ///< how much is seen of it
 };
 
 /// Adds so many pieces of a span.
 void cut(const Medium& medium, const Ray& ray, const MediumSpan& span, int count, std::vector<MediumPiece>& pieces);
 
-/// Sorts pieces along the ray and gives them weights: scattering times transmittance from the first on. Returns their
-/// sum.
+/// Sorts pieces along the ray and gives them weights: scattering times transmittance from the first on, and a tenth of
+/// all by scattering alone, for what is known of transmittance may be wrong. Returns their sum.
 float weigh(std::vector<MediumPiece>& pieces);
 
 }  // namespace isophote

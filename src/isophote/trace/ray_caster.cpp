@@ -9,6 +9,7 @@
 
 #include "isophote/core/error.h"
 #include "isophote/core/hash.h"
+#include "isophote/trace/density_walk.h"
 
 namespace isophote {
 namespace {
@@ -103,7 +104,10 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   for (unsigned id = 0; id < scene.meshes.size(); ++id) impl_->add(scene, id);
   rtcCommitScene(impl_->scene);
   impl_->check();
-  const Box bounds = scene.bounds();
+  Box bounds = scene.bounds();
+  if (bounds.empty())
+    for (const Medium& medium : scene.media)
+      bounds.extend(box_about(medium).lower), bounds.extend(box_about(medium).upper);
   if (!bounds.empty()) impl_->scale = bounds.diagonal();
   for (const Material& material : scene.materials) impl_->sheets |= material.transmission > 0 && !material.solid;
 }

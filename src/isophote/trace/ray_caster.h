@@ -23,7 +23,7 @@ class RayCaster {
   bool intersect(const Ray& ray, std::uint32_t seed, Hit& hit) const;
   bool occluded(const Ray& ray, std::uint32_t seed) const;
 
-  /// The diagonal of the scene's bounds.
+  /// The diagonal of the scene's bounds; of those of its media where it has no meshes.
   float scene_scale() const;
   /// Do any materials let light straight through, thin and transmissive?
   bool has_sheets() const;
