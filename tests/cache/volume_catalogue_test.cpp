@@ -89,7 +89,8 @@ TEST(VolumeCatalogue, SettingsThatNobodyHeedsAreRefused) {
   };
   EXPECT_FALSE(refused(all, change, {.bounds = {.gradient = true}}));
   EXPECT_TRUE(refused(value, change, {.bounds = {.gradient = true}}));
-  EXPECT_TRUE(refused(all, error, {.bounds = {.gradient = true}}));
+  EXPECT_FALSE(refused(all, error, {.bounds = {.gradient = true}}));
+  EXPECT_TRUE(refused(all, uniform, {.bounds = {.gradient = true}}));
   EXPECT_TRUE(refused(all, uniform, {.bounds = {.min_pixels = 1}}));
   EXPECT_FALSE(refused(all, error, {.bounds = {}, .aspect = 4}));
   EXPECT_TRUE(refused(all, change, {.bounds = {}, .aspect = 4}));
@@ -119,7 +120,7 @@ TEST(VolumeCatalogue, MakesAndSettlesRecordsAsItsPartsSay) {
   EXPECT_TRUE(record.footprint.logarithmic);
   EXPECT_EQ(record.footprint.order, 1);
   EXPECT_FLOAT_EQ(record.footprint.radius, 0.2f);
-  estimator.sees_occluders = true;  // whose gradient then is a bound too
+  method.volume.settings.bounds.gradient = true;
   EXPECT_FLOAT_EQ(made().footprint.radius, 0.2f / 3);
 
   method.volume = find_method("marco2018").volume;
@@ -129,8 +130,7 @@ TEST(VolumeCatalogue, MakesAndSettlesRecordsAsItsPartsSay) {
   EXPECT_FALSE(record.footprint.logarithmic);
   const Footprint expected = volume_error(record.jet, view, 0.02f, method.volume.settings.bounds, 4);
   EXPECT_EQ(record.footprint.shape, expected.shape);
-  record.footprint.smallest = record.footprint.largest = 1;
-  record.footprint.resize(1);
+  record.footprint = Footprint::ball(1);
   NeighbourIndex neighbours({gather.position, gather.position});
   const std::uint32_t fresh = 0;
   method.settle({{&record, 1}, neighbours}, {&fresh, 1});

@@ -36,6 +36,17 @@ TEST(Eigen3, TakesMatricesApart) {
   }
 }
 
+TEST(Sym3, TimesItsInverseIsTheIdentity) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int i = 0; i < 200; ++i) {
+    const auto entry = [&] { return number(random); };
+    const Sym3d m{3 + entry(), entry(), entry(), 3 + entry(), entry(), 3 + entry()}, back = inverse(m);
+    for (const Vec3d& v : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}})
+      EXPECT_NEAR(length(m * (back * v) - v), 0, 1e-14);
+  }
+}
+
 TEST(Eigen3, RepeatedNoneAndNearlyAlike) {
   expect_decomposed({});
   expect_decomposed(Sym3d::scaled_identity(-3));

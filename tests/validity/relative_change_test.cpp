@@ -89,6 +89,14 @@ TEST(LimitExtrapolation, InMedia) {
   }
   EXPECT_GT(limited, 50);
   EXPECT_GT(whole, 50);
+  VolumeRecord flat = volume_record({}, 2);  // thin along x, where the gradient is steep
+  flat.footprint.flatten({1, 0, 0}, 0.1f);
+  set_slope(flat, {Rgb(8), Rgb(0.1f), {}});
+  limit_extrapolation(flat);
+  EXPECT_EQ(flat.gradient_scale, 1);
+  set_slope(flat, {Rgb(8), Rgb(1), {}});
+  limit_extrapolation(flat);
+  EXPECT_FLOAT_EQ(flat.gradient_scale, 1 / std::sqrt(0.8f * 0.8f + 2 * 2));
   VolumeRecord value_alone = volume_record({}, 1);
   limit_extrapolation(value_alone);
   EXPECT_EQ(value_alone.gradient_scale, 1);

@@ -112,6 +112,31 @@ TEST(VolumeError, EllipsoidsHaveTheBallsIntegral) {
   EXPECT_EQ(ellipsoid.normal_scale, 0);
 }
 
+// Along the gradient it ends where light has changed by as much as itself, across it stays as it is.
+TEST(VolumeError, TheGradientBoundsItsReach) {
+  VolumeJet jet = curved(0.01, 0.02, 0.01);
+  jet.hessian = Sym3::scaled_identity(0.01f);
+  const Footprint free = volume_error(jet, view_of(0.3f), 0.02f, {.gradient = true}, 4);
+  EXPECT_FLOAT_EQ(free.radius, volume_error(jet, view_of(0.3f), 0.02f, {}, 4).radius);
+  const Vec3 steep{0.6f, 0, 0.8f}, across{0, 1, 0};
+  const float slope = 2 / (0.5f * free.radius);  // of a mean of 2: over half the radius
+  jet.translational = {even_radiance(Rgb(slope * steep.x)), even_radiance(Rgb()), even_radiance(Rgb(slope * steep.z))};
+  const Footprint bounded = volume_error(jet, view_of(0.3f), 0.02f, {.gradient = true}, 4);
+  EXPECT_NEAR(reach(bounded, Vec3d(across)), free.radius, 1e-5 * free.radius);
+  EXPECT_NEAR(reach(bounded, Vec3d(steep)), free.radius / std::sqrt(5), 1e-4 * free.radius);
+  EXPECT_NEAR(bounded.radius, free.radius, 1e-4 * free.radius);
+  EXPECT_FLOAT_EQ(volume_error(jet, view_of(0.3f), 0.02f, {}, 4).radius, free.radius);
+  // No axis is longer than `aspect` times another: a ball stays one.
+  for (const float aspect : {1.0f, 1.5f}) {
+    const Footprint f = volume_error(jet, view_of(0.3f), 0.02f, {.gradient = true}, aspect);
+    EXPECT_NEAR(reach(f, Vec3d(steep)), free.radius / std::sqrt(5), 1e-4 * free.radius);
+    EXPECT_NEAR(reach(f, Vec3d(across)), aspect * free.radius / std::sqrt(5), 1e-4 * free.radius);
+  }
+  // No thinner than lower bounds allow.
+  const Footprint thick = volume_error(jet, view_of(0.3f), 0.02f, {.min_length = free.radius, .gradient = true}, 4);
+  EXPECT_NEAR(reach(thick, Vec3d(steep)), free.radius / std::sqrt(2), 1e-4 * free.radius);
+}
+
 TEST(VolumeError, FlatBlackAndBounded) {
   const VolumeJet flat = curved(0, 0, 0);
   for (const float aspect : {1.0f, 4.0f}) {

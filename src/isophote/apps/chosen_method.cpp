@@ -79,7 +79,10 @@ VolumeMethod chosen_volume(const RenderSettings& s, const Method& method) {
       throw UsageError("--media-... is about records in media: it takes --media cache");
     return volume;
   }
-  if (!s.media_estimator.empty()) volume.estimator = &find_volume_estimator(s.media_estimator);
+  if (!s.media_estimator.empty()) {
+    volume.estimator = &find_volume_estimator(s.media_estimator);
+    volume.settings.bounds.gradient = volume.estimator->sees_occluders;
+  }
   if (!s.media_metric.empty()) volume.metric = &find_volume_metric(s.media_metric);
   if (volume.metric->bounded)
     apply_bounds(s, volume.settings.bounds);

@@ -124,6 +124,7 @@ const RadiusBounds cached_preset{.min_pixels = 1.5f, .min_view = 0.08f, .max_vie
 const RadiusBounds radiance_preset{.min_pixels = 1.5f, .min_view = 0.04f, .max_view = 0.1f, .neighbours = 1};
 const RadiusBounds gradient_preset{.min_pixels = 1.5f, .gradient = true, .neighbours = 1};
 const RadiusBounds safety{.min_pixels = 1.5f}, swept_preset{.min_pixels = 1.5f, .neighbours = 1};
+// In media; where gradients see edges, which the samples' own do not, `gradient_preset`.
 const RadiusBounds volume_preset{.min_pixels = 1.5f, .neighbours = 1};
 constexpr float volume_aspect = 4;
 const VolumeMethod media_2008{InScattering::cache,
@@ -201,7 +202,7 @@ const Method method_table[] = {
      .volume = {InScattering::cache,
                 &find_volume_estimator("volume-triangulated"),
                 &find_volume_metric("volume-error"),
-                {.bounds = volume_preset, .aspect = volume_aspect}}},
+                {.bounds = gradient_preset, .aspect = volume_aspect}}},
     {"swept",
      "",
      "Hessian by swept edges, ellipses, second order",
@@ -225,7 +226,7 @@ const Method method_table[] = {
      {InScattering::cache,
       &find_volume_estimator("volume-walls"),
       &find_volume_metric("relative-change"),
-      {.bounds = volume_preset},
+      {.bounds = gradient_preset},
       true}},
 };
 

@@ -68,7 +68,7 @@ struct VolumeEstimator {
 struct VolumeMetric {
   std::string_view name{}, paper{};
   bool bounded = false;             ///< heeds MetricSettings::bounds but
-  bool by_gradient = false;         ///< that by the gradient, which it takes where the estimator sees occluders
+  bool by_gradient = false;         ///< that by the gradient
   bool elliptical = false;          ///< heeds MetricSettings::aspect, of ellipsoids
   bool needs_sums = false;          ///< of the estimator
   int needs = 0;                    ///< order of the estimator at least

@@ -55,6 +55,7 @@ constexpr VolumeMetric metric_table[] = {
     {.name = "volume-error",
      .paper = "[Marco 2018]",
      .bounded = true,
+     .by_gradient = true,
      .elliptical = true,
      .needs = 2,
      .measure = [](const VolumeJet& jet, const View& view,
@@ -90,10 +91,7 @@ VolumeRecord Method::make_volume_record(const Vec3& position, VolumeJet jet, std
   record.position = position;
   record.media = media;
   record.jet = std::move(jet);
-  MetricSettings settings_here = volume.settings;
-  // A gradient that sees an edge may say of its surroundings what the samples' own do not.
-  if (volume.metric->by_gradient && volume.estimator->sees_occluders) settings_here.bounds.gradient = true;
-  record.footprint = volume.metric->measure(record.jet, view, settings_here);
+  record.footprint = volume.metric->measure(record.jet, view, volume.settings);
   if (volume.settings.falloff) record.footprint.falloff = *volume.settings.falloff;
   record.footprint.order = static_cast<std::uint8_t>(std::min({order, volume.estimator->order, 1}));
   record.footprint.logarithmic = volume.logarithmic;
@@ -120,7 +118,7 @@ void check_combination(const VolumeMethod& method) {
   if (!m.bounded && method.settings.bounds != RadiusBounds{})
     refuse("this metric heeds no bounds on the radius; 'volume-error' does");
   if (!m.by_gradient && method.settings.bounds.gradient)
-    refuse("this metric heeds no bound by the gradient; 'relative-change' does");
+    refuse("this metric heeds no bound by the gradient; 'relative-change' and 'volume-error' do");
   if (!m.elliptical && method.settings.aspect > 1)
     refuse("this metric's footprints are balls; those of 'volume-error' may be ellipsoids");
 }

@@ -57,6 +57,14 @@ constexpr T quadratic_form(const Sym3T<T>& a, const Vec3T<T>& v) {
          2 * (a.xy * v.x * v.y + a.xz * v.x * v.z + a.yz * v.y * v.z);
 }
 
+/// Of a matrix that has one.
+template <class T>
+constexpr Sym3T<T> inverse(const Sym3T<T>& a) {
+  const Sym3T<T> cofactors{a.yy * a.zz - a.yz * a.yz, a.xz * a.yz - a.xy * a.zz, a.xy * a.yz - a.xz * a.yy,
+                           a.xx * a.zz - a.xz * a.xz, a.xy * a.xz - a.xx * a.yz, a.xx * a.yy - a.xy * a.xy};
+  return cofactors * (1 / (a.xx * cofactors.xx + a.xy * cofactors.xy + a.xz * cofactors.xz));
+}
+
 /// The root of the sum of squares of all nine entries: no eigenvalue is larger.
 template <class T>
 T norm(const Sym3T<T>& a) {

@@ -15,6 +15,15 @@ Rgb squares(const Coefficients& all) {
   for (const Rgb& c : all) sum += c * c;
   return sum;
 }
+/// Of the most that a gradient brings each to within a footprint: with d.(shape d) = 1, (g.d)^2 is at most
+/// g.(shape^-1 g).
+Rgb squares(const Gradient<Coefficients>& g, const Footprint& footprint) {
+  const Sym3d reach = inverse(Sym3d(footprint.shape));
+  Rgbd sum;
+  for (std::size_t i = 0; i < g.x.size(); ++i)
+    for (int c = 0; c < 3; ++c) sum[c] += quadratic_form(reach, Vec3d(Vec3{g.x[i][c], g.y[i][c], g.z[i][c]}));
+  return Rgb(sum);
+}
 Rgb root(const Rgb& c) { return {std::sqrt(c.r), std::sqrt(c.g), std::sqrt(c.b)}; }
 
 }  // namespace
@@ -42,13 +51,12 @@ void limit_extrapolation(RadianceRecord& record, float natural_radius) {
 }
 
 void limit_extrapolation(VolumeRecord& record) {
-  const auto& [x, y, z] = record.jet.translational;
-  Rgb value = root(squares(record.jet.value)), slope = root(squares(x) + squares(y) + squares(z));
-  const float least = least_channel * luminance(value), radius = record.footprint.radius;
+  const Rgb value = root(squares(record.jet.value)), change = root(squares(record.jet.translational, record.footprint));
+  const float least = least_channel * luminance(value);
   record.gradient_scale = 1;
   for (int c = 0; c < 3; ++c) {
-    const float change = slope[c] * radius, room = std::max(value[c], least);
-    if (change > room) record.gradient_scale = std::min(record.gradient_scale, room / change);
+    const float room = std::max(value[c], least);
+    if (change[c] > room) record.gradient_scale = std::min(record.gradient_scale, room / change[c]);
   }
 }
 

@@ -11,8 +11,9 @@ namespace isophote {
 void limit_extrapolation(Record& record, float natural_radius);
 /// The same of all coefficients together, in the root of the sum of their squares; there is no Hessian.
 void limit_extrapolation(RadianceRecord& record, float natural_radius);
-/// In media by |grad L| R <= L alone, of all coefficients of a channel together: the correct gradient of a record
-/// beside an edge may hold over a hundredth of the radius that a lower bound leaves it.
+/// In media by |grad L| R <= L alone, R as far as the footprint reaches along the gradient, of all coefficients of a
+/// channel together: the correct gradient of a record beside an edge may hold over a hundredth of the radius that a
+/// lower bound leaves it.
 void limit_extrapolation(VolumeRecord& record);
 
 }  // namespace isophote

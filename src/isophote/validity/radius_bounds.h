@@ -16,7 +16,8 @@ struct RadiusBounds {
   float max_view = std::numeric_limits<float>::infinity();  ///< heights of the picture
   float min_length = 0;                                     ///< scene units, on the used radius
   float max_length = std::numeric_limits<float>::infinity();
-  bool gradient = false;  ///< R <= E / |grad E|, on the unscaled radius, for the channel that changes most
+  bool gradient = false;  ///< R <= E / |grad E|: on the unscaled radius, for the channel that changes most; metrics of
+                          ///< footprints with axes say how they take it
   float neighbours = 0;   ///< R_i <= R_j + so many times their distance, by `settle`; 0: no such bound
 
   bool operator==(const RadiusBounds&) const = default;

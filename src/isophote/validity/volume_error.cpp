@@ -25,6 +25,39 @@ double allowed(const View& view, double curvature, double value, double wanted) 
   return 4 * half_turn / 3 * radius * radius * radius * wanted * value;
 }
 
+/// The gradient of luminance, in the mean over all directions, over that itself; 0 where either is.
+Vec3d relative_gradient(const VolumeJet& jet) {
+  const auto& [x, y, z] = jet.translational;
+  const double value = jet.value.empty() ? 0 : luminance(Rgbd(jet.value[0]));
+  if (x.empty() || !(value > 0)) return {};
+  return Vec3d{luminance(Rgbd(x[0])), luminance(Rgbd(y[0])), luminance(Rgbd(z[0]))} * (1 / value);
+}
+
+/// A region by its axes.
+struct Region {
+  std::array<Vec3d, 3> axes;
+  std::array<double, 3> reach;
+
+  Sym3d shape() const {
+    Sym3d sum;
+    for (int i = 0; i < 3; ++i) sum += Sym3d::outer(axes[i], 1 / (reach[i] * reach[i]));
+    return sum;
+  }
+  /// Has it end where light has changed by as much as itself, to the first order, or at `least`.
+  void end_at_change(const VolumeJet& jet, double least) {
+    const Vec3d change = relative_gradient(jet);
+    const double steepness = length(change);
+    if (!(steepness > 0)) return;
+    const Eigen3 eigen(shape() + Sym3d::outer(change * std::min(1.0, 1 / (steepness * least)), 1));
+    axes = eigen.axes;
+    for (int i = 0; i < 3; ++i) reach[i] = 1 / std::sqrt(eigen.values[i]);
+  }
+  void limit(double least, double most, double aspect) {
+    most = std::min(most, aspect * std::max(least, *std::min_element(reach.begin(), reach.end())));
+    for (double& r : reach) r = std::clamp(r, least, std::max(least, most));
+  }
+};
+
 }  // namespace
 
 float volume_error_rate(const VolumeJet& jet, float mean) {
@@ -43,20 +76,21 @@ std::array<double, 3> volume_error_axes(std::array<double, 3> l, double eps, dou
 Footprint volume_error(const VolumeJet& jet, const View& view, float wanted, const RadiusBounds& bounds, float aspect) {
   const Eigen3 eigen{Sym3d(jet.hessian)};
   std::array<double, 3> l = absolute(eigen.values);
-  const double curvature = sum(l), cap = view.scene_scale / 4;
-  std::array<double, 3> axes{cap, cap, cap};
+  const double curvature = sum(l), least = smallest_radius * view.scene_scale, cap = view.scene_scale / 4;
+  Region region{eigen.axes, {cap, cap, cap}};
   if (curvature > 0) {
     if (!(aspect > 1)) l.fill(curvature / 3);
-    axes = volume_error_axes(l, allowed(view, curvature, mean_over_directions(jet), wanted), aspect);
+    region.reach = volume_error_axes(l, allowed(view, curvature, mean_over_directions(jet), wanted), aspect);
+    region.limit(least, cap, aspect);
   }
-  const double least = smallest_radius * view.scene_scale;
-  for (double& axis : axes) axis = std::clamp(axis, least, cap);
   const RadiusRange range(bounds, view, wanted);
-  const auto longest = static_cast<float>(*std::max_element(axes.begin(), axes.end()));
+  if (bounds.gradient) {
+    region.end_at_change(jet, range.smallest);
+    region.limit(least, cap, aspect);
+  }
+  const auto longest = static_cast<float>(*std::max_element(region.reach.begin(), region.reach.end()));
   Footprint footprint = Footprint::ball(longest);
-  footprint.shape = {};
-  for (int i = 0; i < 3; ++i)
-    footprint.shape = footprint.shape + Sym3(Sym3d::outer(eigen.axes[i], 1 / (axes[i] * axes[i])));
+  footprint.shape = Sym3(region.shape());
   footprint.smallest = range.smallest, footprint.largest = range.largest;
   footprint.resize(longest);
   return footprint;

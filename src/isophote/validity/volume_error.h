@@ -17,7 +17,9 @@ namespace isophote {
 /// footprint, averaged over the visible media, is that, `rate` being the mean of `volume_error_rate` there (View's
 /// pilot: its error_rate, and in `irradiance` the mean of `mean_over_directions`). Without a pilot eps is that of a
 /// ball which has this mean itself, relative to its own value. No radius is above a quarter of the scene's diagonal,
-/// which a place where the Hessian happens to vanish would else exceed.
+/// which a place where the Hessian happens to vanish would else exceed. `bounds.gradient` has the footprint end along
+/// the gradient of luminance where light has changed by as much as itself, which keeps an error that is allowed for the
+/// picture from being many times what there is at a dark place.
 Footprint volume_error(const VolumeJet& jet, const View& view, float wanted, const RadiusBounds& bounds, float aspect);
 
 /// (sum |l_i| / L)^(3/5) / 10 at one place, 1 / length^(6/5), L being the picture's mean luminance: with the radius
