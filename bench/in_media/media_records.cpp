@@ -79,7 +79,7 @@ RgbImage in_scattered(const Job& job, const At& at) {
   return picture;
 }
 
-/// Where no record serves, by a path, as in renders.
+/// Where no record serves, by a path.
 RgbImage in_scattered_by_records(const Job& job, const RecordCache& cache) {
   return in_scattered(job, [&](const MediumPoint& point, const Vec3& direction, Sampler& stream, RayCounts& counts) {
     if (const auto cached = cached_in_scattering(job.world, {&cache}, point, direction, counts)) return *cached;

@@ -69,6 +69,7 @@ TEST(PhaseLobe, HasTheBandsItNeeds) {
     const int bands = bands_for(g);
     EXPECT_TRUE(bands == most_volume_bands || missed(g, bands) <= 0.05) << g;
     EXPECT_TRUE(bands == 1 || missed(g, bands - 1) > 0.05) << g;
+    EXPECT_EQ(bands_hold(g), missed(g, most_volume_bands) <= 0.05) << g;
     if (g < 0.66f) {
       EXPECT_LE(missed(g, bands), 0.05) << g;
     }

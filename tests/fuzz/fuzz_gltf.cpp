@@ -5,7 +5,7 @@
 #include "fuzz/scene_checks.h"
 #include "isophote/core/error.h"
 #include "isophote/load/gltf_bytes.h"
-#include "isophote/scene/emitter.h"
+#include "isophote/scene/punctual_lights.h"
 #include "isophote/scene/surface.h"
 
 using namespace isophote;
@@ -45,7 +45,8 @@ void check_emitters(const Emitters& emitters, const Vec3& from) {
   for (int i = 0; i < 4; ++i) {
     const float u = static_cast<float>(i) / 4;
     if (!emitters.empty()) check_light(emitters.sample(from, u, {0.3f, 0.6f}));
-    for (int k = 0; k < emitters.punctual_samples(); ++k) check_light(emitters.sample_punctual(k, from, u));
+    const PunctualLights& punctual = emitters.punctual(PunctualKinds::all);
+    for (int k = 0; k < punctual.samples(); ++k) check_light(punctual.sample(k, from, u));
   }
 }
 

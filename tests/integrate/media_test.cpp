@@ -38,6 +38,39 @@ TEST(MediaCaches, KeepTheMeanLevelWhereMediaScatterForwards) {
   EXPECT_NEAR(level(foggy_job(stage, "jarosz2008a", 32, 64)) / paths, 1, 0.02);
 }
 
+TEST(MediaCaches, KeepTheMeanLevelWhereRecordsCannotHoldThePhaseFunction) {
+  const Stage stage(foggy_box(Rgb(0.8f), Rgb(0.1f), 0.85f));
+  const double paths = level(foggy_job(stage, "path", 32, 512));
+  EXPECT_NEAR(level(foggy_job(stage, "cached", 24, 64)) / paths, 1, 0.025);
+}
+
+TEST(MediaCaches, KeepTheMeanLevelOfGlowingFog) {
+  Scene scene = foggy_box(Rgb(0.4f), Rgb(0.2f), 0.3f);
+  scene.media[0].emission = {2, 1, 0.5f};
+  scene.media[0].bounds = Box{{-0.9f, 0.1f, -0.9f}, {0.9f, 0.8f, 0.9f}};
+  const Stage stage(std::move(scene));
+  const double paths = level(foggy_job(stage, "path", 32, 512));
+  EXPECT_NEAR(level(foggy_job(stage, "cached", 32, 64)) / paths, 1, 0.02);
+}
+
+TEST(MediaCaches, KeepTheMeanLevelAmongManyLightsOfAllKinds) {
+  Scene scene = foggy_box(Rgb(0.4f), Rgb(0.1f), 0.4f);
+  for (int i = 0; i < 6; ++i) {
+    PunctualLight light;
+    light.position = {0.28f * static_cast<float>(i) - 0.7f, 0.5f + 0.2f * static_cast<float>(i), 0.3f};
+    light.intensity = {1, 1.5f, 0.5f};
+    if (i % 3 == 1) light.kind = PunctualLight::Kind::spot, light.direction = {0, -1, 0}, light.outer_cone = 0.6f;
+    scene.lights.push_back(light);
+  }
+  PunctualLight sun;
+  sun.kind = PunctualLight::Kind::directional;
+  sun.direction = normalize(Vec3{0.3f, -0.5f, -1}), sun.intensity = Rgb(2);
+  scene.lights.push_back(sun);
+  const Stage stage(std::move(scene));
+  const double paths = level(foggy_job(stage, "path", 32, 512));
+  EXPECT_NEAR(level(foggy_job(stage, "cached", 32, 64)) / paths, 1, 0.025);
+}
+
 TEST(MediaCaches, KeepTheMeanLevelOfDenseSmoke) {
   // Twelve free paths across, lit from above, in thin air.
   Scene scene = foggy_box(Rgb(0.02f), Rgb(0.01f), 0);
@@ -83,9 +116,34 @@ TEST(MediaCaches, WhatMediaHideOfTheSkyIsNotTransparent) {
   EXPECT_NEAR(opacity("jarosz2008a") / paths, 1, 0.1);
 }
 
+TEST(MediaCaches, EachCombinationGivesAPicture) {
+  // Neither negative nor beyond numbers, in fog, smoke and glow.
+  Scene scene = foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0.3f);
+  scene.media.push_back(scenes::medium(Rgb(20), {5, 0, 1}, {{-0.5f, 0.2f, -0.5f}, {0.2f, 1, 0.2f}}, -0.5f));
+  scene.media.push_back(scenes::medium({}, Rgb(0.1f), {{0.3f, 0.2f, -0.5f}, {0.6f, 1, 0.2f}}));
+  scene.media.back().emission = {3, 2, 1};
+  const Stage stage(std::move(scene));
+  int pictures = 0;
+  for (const VolumeEstimator& e : volume_estimators())
+    for (const VolumeMetric& m : volume_metrics()) {
+      if (e.order < m.needs || (m.needs_sums && !e.sums)) continue;
+      SCOPED_TRACE(std::string(e.name) + " " + std::string(m.name));
+      Job job = foggy_job(stage, "cached", 16, 1);
+      job.method.volume = {InScattering::cache, &e, &m, {}, pictures % 2 == 0};
+      job.method.volume.settings.a = threshold(m, 0.3);
+      job.method.volume.settings.bounds.gradient = m.by_gradient && e.order > 0;
+      check_combination(job.method);
+      const Rendered r = render_all(job);
+      for (const Rgb& p : r.layer("").pixels) ASSERT_TRUE(is_finite(p) && std::min({p.r, p.g, p.b}) >= 0);
+      EXPECT_GT(r.cache.volumes()->media.records().size(), 0u);
+      ++pictures;
+    }
+  EXPECT_GE(pictures, 9);
+}
+
 TEST(MediaCaches, ThreadsDoNotChangeThem) {
   const Stage stage(foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0.3f));
-  for (const char* name : {"jarosz2008a", "cached"}) {
+  for (const char* name : {"jarosz2008a", "jarosz2008b", "marco2018", "cached"}) {
     Job job = foggy_job(stage, name, 24, 2);
     job.parallel = thread_for(1);
     const Rendered serial = render_all(job);
@@ -99,10 +157,37 @@ TEST(MediaCaches, ThreadsDoNotChangeThem) {
   }
 }
 
+TEST(MediaCaches, RecordsReadBackGiveTheSamePicture) {
+  const Stage stage(foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0.3f));
+  for (const char* name : {"jarosz2008a", "marco2018"}) {
+    const Job job = foggy_job(stage, name, 24, 2);
+    Rendered first = render_all(job);
+    const auto all = [](const auto& cache) { return std::vector(cache.records().begin(), cache.records().end()); };
+    const std::string path = testing_files::temporary("records");
+    RecordFile saved;
+    saved.records = all(first.cache);
+    saved.volumes = {all(first.cache.volumes()->surfaces), all(first.cache.volumes()->media)};
+    write_records(path, saved);
+    const RecordFile file = read_records(path);
+    Rendered again{Film(24, 24), empty_cache(job), empty_cache(job), {}, {}};
+    for (const Record& record : file.records) again.cache.insert(record);
+    for (const VolumePart part : {VolumePart::surfaces, VolumePart::media})
+      for (const VolumeRecord& record : file.volumes[static_cast<std::size_t>(part)])
+        again.cache.volumes()->of(part).insert(record);
+    again.cache.reindex();
+    for (const VolumePart part : {VolumePart::surfaces, VolumePart::media}) again.cache.volumes()->of(part).reindex();
+    render(job, &again.cache, again.film);
+    Film same(24, 24);
+    render(job, &first.cache, same);
+    EXPECT_GT(file.volumes[0].size() + file.volumes[1].size(), 100u);
+    EXPECT_TRUE(exr_bytes(again.exr()) == exr_bytes(same.exr())) << name;
+  }
+}
+
 TEST(MediaCaches, PowersOfTwoOfTheSizeDoNotChangeThem) {
   const Stage base(foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0.3f)),
       large(foggy_box({0.3f, 0.4f, 0.5f}, Rgb(0.1f), 0.3f, 0x1p10f));
-  for (const char* name : {"path", "jarosz2008a"}) {
+  for (const char* name : {"path", "jarosz2008a", "jarosz2008b", "cached"}) {
     const Rendered a = render_all(foggy_job(base, name, 24, 2)), b = render_all(foggy_job(large, name, 24, 2));
     EXPECT_EQ(a.layer("indirect").pixels, b.layer("indirect").pixels) << name;
     EXPECT_EQ(a.layer("direct").pixels, b.layer("direct").pixels) << name;

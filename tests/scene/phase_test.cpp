@@ -96,6 +96,21 @@ TEST_P(HenyeyGreenstein, EndsOfTheSquareAreStraightOnAndBack) {
 INSTANTIATE_TEST_SUITE_P(Means, HenyeyGreenstein,
                          testing::Values(0.0f, 1e-7f, -1e-4f, 1e-3f, 0.3f, -0.6f, 0.85f, -0.99f, 0.99f));
 
+TEST_P(HenyeyGreenstein, TurnIsTheChangeOfItsLogarithm) {
+  const Vec3d direction = normalize(Vec3d{0.3, -0.8, 0.2}), across = normalize(cross(direction, {0, 0, 1}));
+  for (const Vec3d& aim : {Vec3d{1, 2, -1}, Vec3d{0.5, -1, 0.1}, Vec3d{-0.2, 0.7, 0.7}}) {
+    const Vec3d other = normalize(aim);
+    const auto logarithm = [&](double angle) {
+      return std::log(
+          textbook(static_cast<double>(g), dot(direction * std::cos(angle) + across * std::sin(angle), other)));
+    };
+    const Vec3 turn = henyey_greenstein_turn(g, Vec3(direction), Vec3(other));
+    const double expected = (logarithm(1e-4) - logarithm(-1e-4)) / 2e-4;
+    EXPECT_NEAR(static_cast<double>(dot(turn, Vec3(across))), expected, 1e-4 + 1e-4 * std::abs(expected));
+    EXPECT_NEAR(dot(turn, Vec3(direction)), 0, 1e-5f * (1 + length(turn)));
+  }
+}
+
 TEST(HenyeyGreensteinExtremes, StayFinite) {
   const float g = std::nextafter(1.0f, 0.0f);
   for (const float sign : {-1.0f, 1.0f}) {

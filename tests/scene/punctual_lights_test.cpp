@@ -93,6 +93,22 @@ TEST(PunctualLights, TheWeakestIsNotForgottenBesideTheStrongest) {
   }
 }
 
+TEST(PunctualLights, KindsAreChosenAmongThemselves) {
+  Scene scene = lights(6);
+  scene.lights.resize(8);
+  for (int i = 6; i < 8; ++i) scene.lights[i] = {PunctualLight::Kind::directional, "", {}, {0, -1, 0}, Rgb(3.0f)};
+  const PunctualLights all(scene), suns(scene, PunctualKinds::directional), placed(scene, PunctualKinds::placed);
+  EXPECT_EQ(all.samples(), 1);
+  EXPECT_EQ(suns.samples(), 2);
+  EXPECT_EQ(placed.samples(), 1);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(suns.choose(i, 0.5f).light, &scene.lights[6 + static_cast<std::size_t>(i)]);
+  for (int i = 0; i < 100; ++i) {
+    const PunctualLights::Chosen one = placed.choose(0, (static_cast<float>(i) + 0.5f) / 100);
+    EXPECT_EQ(one.light->kind, PunctualLight::Kind::point);
+    EXPECT_GT(one.chance, 0);
+  }
+}
+
 TEST(PunctualLights, BlackOnesAreNone) {
   Scene scene;
   EXPECT_EQ(PunctualLights(scene).samples(), 0);

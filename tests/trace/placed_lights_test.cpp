@@ -39,8 +39,8 @@ Scene fog() {
   return scene;
 }
 
-/// The integral along a ray, by as many steps.
-double integral(Stage& stage, const Ray& ray, int steps) {
+/// The integral along a ray, by as many steps; as if that came to its places from `direction`.
+double integral(Stage& stage, const Ray& ray, int steps, const Vec3& direction) {
   double sum = 0;
   const float step = (ray.far - ray.near) / static_cast<float>(steps);
   for (int i = 0; i < steps; ++i) {
@@ -57,7 +57,7 @@ double integral(Stage& stage, const Ray& ray, int steps) {
         if (is_black(sample.radiance)) continue;
         const Rgb arrives = light_transmittance(
             stage.world, ShadowStart(MediumPoint{p, medium.g, m, {}}, sample.direction), sample, 0, stage.counts);
-        const double phase = henyey_greenstein(medium.g, dot(ray.direction, sample.direction));
+        const double phase = henyey_greenstein(medium.g, dot(direction, sample.direction));
         sum += static_cast<double>(step) * before * sigma * phase * static_cast<double>(sample.radiance.g * arrives.g);
       }
     }
@@ -78,7 +78,7 @@ void expect_integrals(Scene scene, std::uint64_t seed, double power) {
       Sampler sampler = test_sampler(seed + static_cast<std::uint64_t>(r), i);
       e.add(placed_lights_along(stage.world, ray, {}, sampler, stage.counts).g);
     }
-    const double expected = integral(stage, ray, 20000);
+    const double expected = integral(stage, ray, 20000, ray.direction);
     EXPECT_LE(e.standard_error(), power * expected) << r;
     EXPECT_NEAR(e.mean(), expected, 4.5 * e.standard_error() + 2e-3 * expected) << r;
   }
@@ -96,6 +96,28 @@ TEST(PlacedLights, OnlyWithinConesOfSpots) {
     scene.lights = {spot_at({0.2f, 1.2f, -0.3f}, {0, 0, 0}, 0.5f * outer, outer)};
     expect_integrals(std::move(scene), 20, 0.01);
   }
+}
+
+TEST(PlacedLights, TheSlopeIsThatOfPhaseFunctions) {
+  Scene scene = fog();
+  scene.lights = {light_at({0.3f, 1.2f, -0.2f})};
+  Stage stage(std::move(scene));
+  const Ray ray{{-2.5f, 0.3f, 0.2f}, normalize(Vec3{2.4f, -0.2f, -0.3f}), 0, 4};
+  const Vec3 to_light = stage.scene.lights[0].position - ray.origin;
+  const Vec3 across = normalize(to_light - ray.direction * dot(ray.direction, to_light));
+  Estimate e;
+  for (int i = 0; i < 20000; ++i) {
+    Sampler sampler = test_sampler(60, i);
+    LightChange change;
+    placed_lights_along(stage.world, ray, {}, sampler, stage.counts, &change);
+    e.add(change.turn.dot(across).g);
+  }
+  constexpr float angle = 0.01f;
+  const auto turned = [&](float by) { return normalize(ray.direction + across * by); };
+  const double expected =
+      (integral(stage, ray, 20000, turned(angle)) - integral(stage, ray, 20000, turned(-angle))) / (2 * double{angle});
+  EXPECT_NEAR(e.mean(), expected, 4.5 * e.standard_error() + 3e-3 * std::abs(expected));
+  EXPECT_GT(std::abs(expected), 20 * e.standard_error());
 }
 
 TEST(PlacedLights, OneOfManyIsChosen) {

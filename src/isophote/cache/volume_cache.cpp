@@ -33,6 +33,15 @@ class Mean {
   double logarithms_ = 0, log_weights_ = 0, values_ = 0, weights_ = 0;
 };
 
+/// Do so many bands hold the phase function but for what may be missing?
+bool is_held(float g, int bands) {
+  // Band l holds (2 l + 1) g^2l of the square, which from n on sums up to x^n ((2 n + 1) / (1 - x) + 2 x / (1 - x)^2).
+  constexpr double missing = 0.05;
+  const double x = static_cast<double>(g) * static_cast<double>(g), rest = 1 / (1 - x);
+  const auto from = [&](int n) { return std::pow(x, n) * ((2 * n + 1) * rest + 2 * x * rest * rest); };
+  return from(bands) <= missing * missing * from(0);
+}
+
 }  // namespace
 
 PhaseLobe phase_lobe(float g, const Vec3& wo, int order) {
@@ -47,14 +56,12 @@ PhaseLobe phase_lobe(float g, const Vec3& wo, int order) {
 }
 
 int bands_for(float g) {
-  // Band l holds (2 l + 1) g^2l of the square, which from n on sums up to x^n ((2 n + 1) / (1 - x) + 2 x / (1 - x)^2).
-  constexpr double missing = 0.05;
-  const double x = static_cast<double>(g) * static_cast<double>(g), rest = 1 / (1 - x);
-  const auto from = [&](int n) { return std::pow(x, n) * ((2 * n + 1) * rest + 2 * x * rest * rest); };
   int bands = 1;
-  while (bands < most_volume_bands && !(from(bands) <= missing * missing * from(0))) ++bands;
+  while (bands < most_volume_bands && !is_held(g, bands)) ++bands;
   return bands;
 }
+
+bool bands_hold(float g) { return is_held(g, most_volume_bands); }
 
 float serving_error(const VolumeRecord& record, const VolumeQuery& query, VolumeOpenTest open) {
   if (record.media != query.media) return infinity;

@@ -30,6 +30,8 @@ PhaseLobe phase_lobe(float g, const Vec3& wo, int order);
 /// How many bands hold that phase function but for 5 % of its root mean square. From |g| = 0.665 on they would be more
 /// than `most_volume_bands`, which is the answer then.
 int bands_for(float g);
+/// Are they not, so that `bands_for` is all there is to it?
+bool bands_hold(float g);
 
 /// Radiance that arrives in media, by records, of which phase functions take what they scatter [Jarosz 2008a].
 class VolumeCache : public RecordStore<VolumeRecord, VolumeQuery> {

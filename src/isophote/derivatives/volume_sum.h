@@ -35,9 +35,6 @@ struct WeightsThere {
   std::array<Vec3d, most_weights> slopes;
 };
 
-inline void add(Gradient<Rgbd>& g, const Vec3d& along, const Rgbd& amount) {
-  g.x += amount * along.x, g.y += amount * along.y, g.z += amount * along.z;
-}
 inline void add(Gradient<Rgbd>& g, const Gradient<Rgbd>& more, double times) {
   g.x += more.x * times, g.y += more.y * times, g.z += more.z * times;
 }

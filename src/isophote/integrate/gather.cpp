@@ -4,28 +4,10 @@
 #include <numeric>
 
 #include "isophote/integrate/gather_layers.h"
-#include "isophote/integrate/shade.h"
+#include "isophote/integrate/meet.h"
 
 namespace isophote {
 namespace {
-
-Rgb scattered_radiance(const World& world, const FarLight& from, const FirstPoint& hit, int depth, Sampler& sampler,
-                       RayCounts& counts) {
-  if (from.none() || hit.medium_point) return path_radiance(world, hit, depth, sampler, counts);
-  const Shaded s = shade(world, from, *hit.point, -hit.direction, hit.path_length, depth, sampler, counts);
-  return s.direct + s.indirect;
-}
-
-/// What a ray meets, and the radiance of that and of what lies behind in mirrors, but for what media do before it.
-GatherSample meet(const World& world, const FarLight& from, const Ray& ray, const Rgb& medium, Sampler& sampler,
-                  RayCounts& counts) {
-  const FirstPoint hit = first_point(world, ray, false, sampler, counts.gather, medium, FirstSegment::clear, 1);
-  GatherSample sample{ray.direction, hit.first_distance, hit.emission, hit.first_normal, hit.first_mesh};
-  const int depth = 1 + hit.depth;
-  if (hit.scatters() && depth < world.max_depth)
-    sample.radiance += hit.throughput * scattered_radiance(world, from, hit, depth, sampler, counts);
-  return sample;
-}
 
 /// Shells about a place, to the end of all media: the first is thin, beside the scene and beside the free path.
 Shells shells_at(const World& world, const Vec3& position, std::uint64_t key) {
@@ -85,7 +67,7 @@ void gather_hemisphere(const World& world, const FarLight& from, const Place& pl
       continue;
     }
     const Ray ray{offset_origin(surface, direction), direction};
-    gather.samples[i] = meet(world, from, ray, place.medium, sampler, counts);
+    gather.samples[i] = meet(world, from, ray, place.medium, 1, sampler, counts);
     if (shells) add_layers(world, from, ray, *shells, i, sampler, counts, gather);
   }
 }
@@ -103,7 +85,7 @@ void gather_sphere(const World& world, const FarLight& from, const Vec3& positio
   for (int n = 0, i = 0; n < strata.size(); ++n, i = (i + step) % strata.size()) {
     Sampler sampler(key, static_cast<std::uint32_t>(i));
     const Ray ray{position, strata.direction(i / strata.azimuthal, i % strata.azimuthal, sampler.next2())};
-    gather.samples[i] = meet(world, from, ray, inside, sampler, counts);
+    gather.samples[i] = meet(world, from, ray, inside, 1, sampler, counts);
     add_layers(world, from, ray, shells, i, sampler, counts, gather);
   }
 }

@@ -5,6 +5,7 @@
 
 #include "isophote/integrate/in_scattering.h"
 #include "isophote/sampling/few_choice.h"
+#include "isophote/trace/placed_lights.h"
 
 namespace isophote {
 namespace {
@@ -12,20 +13,32 @@ namespace {
 /// One shell of a ray, as far as caches know it.
 struct Looked {
   MediumPoint point;
-  Rgb weight;           ///< sigma_s times transmittance, over the shell: of the light in-scattered there
-  Gradient<Rgb> slope;  ///< of the light in-scattered there, over directions
+  Rgb weight;          ///< sigma_s times transmittance, over the shell: of the light in-scattered there
+  Rgb placed;          ///< what is seen of light of points and spots, from places of its own
+  LightChange change;  ///< of that, and by directions of all light of directly sampled emitters
   bool wants_path = false;
 
-  /// What that adds to the logarithmic gradient of a layer, as the record moves and this place stays.
-  void add_slope(GatherLayer& layer) const {
-    for (int c = 0; c < 3; ++c) {
-      if (!(layer.radiance[c] > 0)) continue;
-      const float scale = -weight[c] / (layer.radiance[c] * layer.depth);
-      layer.log_gradient.x[c] += slope.x[c] * scale, layer.log_gradient.y[c] += slope.y[c] * scale;
-      layer.log_gradient.z[c] += slope.z[c] * scale;
-    }
+  /// The logarithmic gradient of a layer as the record moves and places stay, of which it has that at `point`.
+  void complete(GatherLayer& layer) const {
+    const Rgb here = layer.radiance - placed;
+    const auto along = [&](Rgb& log_gradient, const Rgb& passage, const Rgb& turn) {
+      for (int c = 0; c < 3; ++c)
+        if (layer.radiance[c] > 0)
+          log_gradient[c] = (here[c] * log_gradient[c] + passage[c] - turn[c] / layer.depth) / layer.radiance[c];
+    };
+    along(layer.log_gradient.x, change.passage.x, change.turn.x);
+    along(layer.log_gradient.y, change.passage.y, change.turn.y);
+    along(layer.log_gradient.z, change.passage.z, change.turn.z);
   }
 };
+
+/// What a place scatters of directly sampled emitters' light, but of point and spot lights.
+Rgb directly_lit(const World& world, const Vec3& direction, Sampler& sampler, RayCounts& counts, Looked& here) {
+  Gradient<Rgb> slope;
+  const Rgb light = direct_light(world, here.point, direction, sampler, counts, &slope);
+  add(here.change.turn, slope, here.weight);
+  return here.weight * light;
+}
 
 /// One path for all shells of a ray that want one, at one of them, chosen by its weight.
 void follow_one_path(const World& world, std::span<const Looked> looked, const Vec3& direction, int depth,
@@ -76,19 +89,20 @@ void gather_layers(const World& world, const FarLight& from, const Ray& ray, con
     layer = {{}, shells.depth(l, sample.distance), passages[l].log_gradient};
     if (!(at.length > 0)) continue;
     const Rgb passes = passages[l].transmittance * at.length;
-    layer.radiance = passes * at.emission;
-    if (is_black(at.scattering)) continue;
+    const Ray shell{ray.origin, ray.direction, l > 0 ? ends[l - 1] : 0, ends[l]};
     Looked& here = looked[l];
+    here.placed = placed_lights_along(world, shell, {}, sampler, counts, &here.change);
+    layer.radiance = passes * at.emission + here.placed;
+    if (is_black(at.scattering)) continue;
     here.point = at.point;
     here.weight = passes * at.scattering;
-    Rgb source = direct_light(world, here.point, ray.direction, PunctualKinds::all, sampler, counts, &here.slope);
+    layer.radiance += directly_lit(world, ray.direction, sampler, counts, here);
     const auto indirect = cached_in_scattering(world, from, here.point, ray.direction, counts);
     here.wants_path = !indirect;
-    if (indirect) source += *indirect;
-    layer.radiance += here.weight * source;
+    if (indirect) layer.radiance += here.weight * *indirect;
   }
   follow_one_path(world, looked, ray.direction, 1, sampler, counts, layers.subspan(1));
-  for (int l = 0; l < count; ++l) looked[l].add_slope(layers[l + 1]);
+  for (int l = 0; l < count; ++l) looked[l].complete(layers[l + 1]);
   sample.radiance = {};
   for (const GatherLayer& layer : layers) sample.radiance += layer.radiance;
 }

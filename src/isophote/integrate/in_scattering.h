@@ -10,4 +10,10 @@ namespace isophote {
 std::optional<Rgb> cached_in_scattering(const World& world, const FarLight& from, const MediumPoint& point,
                                         const Vec3& direction, RayCounts& counts);
 
+/// The same as the eye sees it: where the medium's phase function is too narrow for the bands of records, edges of
+/// what surfaces and the sky send would be missed, which is found by a ray instead; what media send is smoother.
+/// `depth` counts the scattering events before the point's.
+std::optional<Rgb> seen_in_scattering(const World& world, const FarLight& from, const MediumPoint& point,
+                                      const Vec3& direction, int depth, Sampler& sampler, RayCounts& counts);
+
 }  // namespace isophote

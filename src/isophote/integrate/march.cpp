@@ -15,9 +15,8 @@ Marched march(const World& world, const FarLight& from, const Ray& way, int dept
     const Rgb weight = world.media->transmittance(before, sampler.next_bits()) * at.length;
     out.direct += weight * at.emission;
     if (depth >= world.max_depth || is_black(at.scattering)) continue;
-    if (const auto indirect = cached_in_scattering(world, from, at.point, way.direction, counts)) {
-      out.direct += weight * at.scattering *
-                    direct_light(world, at.point, way.direction, PunctualKinds::directional, sampler, counts);
+    if (const auto indirect = seen_in_scattering(world, from, at.point, way.direction, depth, sampler, counts)) {
+      out.direct += weight * at.scattering * direct_light(world, at.point, way.direction, sampler, counts);
       out.indirect += weight * at.scattering * *indirect;
     } else if (uncovered == WhereUncovered::nothing) {
       out = {};

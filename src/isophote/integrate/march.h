@@ -15,8 +15,8 @@ struct Marched {
 enum class WhereUncovered : std::uint8_t { path, nothing };
 
 /// Looks at a few places of the way, chosen by what is seen from there, for light of directly sampled emitters, by
-/// light sampling, and for the rest, `from` records of radiance in media or by a path where none serves. The world has
-/// media; `depth` counts the scattering events before.
+/// light sampling, and for the rest, `from` what is known (`seen_in_scattering`) or by a path where no record serves.
+/// The world has media; `depth` counts the scattering events before.
 Marched march(const World& world, const FarLight& from, const Ray& way, int depth, WhereUncovered uncovered,
               Sampler& sampler, RayCounts& counts);
 

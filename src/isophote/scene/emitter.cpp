@@ -1,6 +1,7 @@
 #include "isophote/scene/emitter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -46,11 +47,15 @@ struct Emitters::Impl {
   AliasTable all, direct;
   std::vector<float> mean_radiances;        // luminance, of few triangles; empty: they are many
   float few_of_all = 0, few_of_direct = 0;  // of all of them together
-  PunctualLights punctual;
+  std::array<PunctualLights, 3> punctual;   // by PunctualKinds
   NearGrid near;
 };
 
-Emitters::Impl::Impl(const Scene& scene_) : scene(scene_), environment(scene_.environment), punctual(scene_) {
+Emitters::Impl::Impl(const Scene& scene_)
+    : scene(scene_),
+      environment(scene_.environment),
+      punctual{PunctualLights(scene_, PunctualKinds::all), PunctualLights(scene_, PunctualKinds::directional),
+               PunctualLights(scene_, PunctualKinds::placed)} {
   const Box bounds = scene.bounds();
   const double radius = bounds.empty() ? 1.0 : 0.5 * bounds.diagonal();
   auto [emissive, weights] = emissive_triangles(scene);
@@ -147,18 +152,9 @@ LightSample Emitters::sample(const Vec3& from, float u_choice, Vec2 u, Among amo
   return impl_->few() ? impl_->sample_few(from, u_choice, u, among) : impl_->sample_many(from, u_choice, u, among);
 }
 
-int Emitters::punctual_samples() const { return impl_->punctual.samples(); }
-
-LightSample Emitters::sample_punctual(int i, const Vec3& from, float u) const {
-  return impl_->punctual.sample(i, from, u);
+const PunctualLights& Emitters::punctual(PunctualKinds kinds) const {
+  return impl_->punctual[static_cast<std::size_t>(kinds)];
 }
-
-Emitters::Punctual Emitters::choose_punctual(int i, float u) const {
-  const PunctualLights::Chosen chosen = impl_->punctual.choose(i, u);
-  return {chosen.light, chosen.chance};
-}
-
-bool Emitters::has_placed() const { return impl_->punctual.has_placed(); }
 
 float Emitters::triangle_pdf(const Hit& hit, const Vec3& from, const Vec3& direction, Among among) const {
   const std::uint32_t first = impl_->first_of_mesh[hit.mesh];

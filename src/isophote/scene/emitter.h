@@ -21,6 +21,10 @@ struct LightSample {
   Vec3 end{};  ///< where a shadow ray ends, for a finite distance: at the light, off its triangle on the side of `from`
 };
 
+/// Which punctual lights are meant: those that have a place are point and spot lights.
+enum class PunctualKinds : std::uint8_t { all, directional, placed };
+class PunctualLights;
+
 /// All that emits. Emissive triangles (textures averaged over them) and the environment are chosen by power, with a
 /// tenth of the choice to all alike; triangles, where they are few, among themselves by what they may send to the point
 /// (`choose_lamp`). The environment is split in two: its peaks (all sun-like texels together) and the rest. Punctual
@@ -45,17 +49,8 @@ class Emitters {
   /// One triangle or point of the environment and the direction towards it; pdf 0 where the emitter does not shine on
   /// `from` at all. `empty` must not hold.
   LightSample sample(const Vec3& from, float u_choice, Vec2 u, Among among = Among::all) const;
-  /// How many samples of the punctual lights to take: each of a few, one of many.
-  int punctual_samples() const;
-  /// The i-th of them. Their light and that of `sample` add up.
-  LightSample sample_punctual(int i, const Vec3& from, float u) const;
-  /// The i-th of them by itself, wherever it shines, and the chance of the choice; and is any a point or spot light?
-  struct Punctual {
-    const PunctualLight* light = nullptr;
-    float chance = 1;
-  };
-  Punctual choose_punctual(int i, float u) const;
-  bool has_placed() const;
+  /// The punctual lights. Their light and that of `sample` add up.
+  const PunctualLights& punctual(PunctualKinds kinds) const;
 
   /// The density (solid angle) with which `sample` gives the direction in which the triangle of `hit` was met. Above 0
   /// wherever the triangle shines on `from`.

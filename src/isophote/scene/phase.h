@@ -23,6 +23,13 @@ inline float henyey_greenstein(float g, float cosine) {
   return (1 - a) * (1 + a) / (4 * pi * d * std::sqrt(d));
 }
 
+/// By how much the logarithm of `henyey_greenstein(g, dot(direction, other))` changes as `direction` turns on the
+/// sphere: a vector across it, per radian.
+inline Vec3 henyey_greenstein_turn(float g, const Vec3& direction, const Vec3& other) {
+  const float cosine = dot(direction, other);
+  return (other - direction * cosine) * (3 * g / henyey_greenstein_root(g, cosine));
+}
+
 /// A direction of propagation after scattering, with density `henyey_greenstein`; `forward` is that before, unit. The
 /// distribution of the cosine inverted, written as what is left to 1 and to -1: products of positive numbers, without
 /// the division by g that the usual form has. u.x = 0 goes straight on.

@@ -25,6 +25,11 @@ double power(const PunctualLight& light, double scene_radius) {
   return 0;
 }
 
+bool is_of(PunctualKinds kinds, const PunctualLight& light) {
+  const bool directional = light.kind == PunctualLight::Kind::directional;
+  return kinds == PunctualKinds::all || directional == (kinds == PunctualKinds::directional);
+}
+
 /// The cone's edge, as KHR_lights_punctual recommends it.
 float spot_falloff(const PunctualLight& light, const Vec3& towards_light) {
   const float inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
@@ -46,15 +51,17 @@ LightSample punctual_light_at(const PunctualLight& light, const Vec3& from) {
   return {direction, distance, light.intensity * (falloff / square(distance)), 1, true, true, light.position};
 }
 
-PunctualLights::PunctualLights(const Scene& scene) : lights_(scene.lights) {
+PunctualLights::PunctualLights(const Scene& scene, PunctualKinds kinds) {
   const Box bounds = scene.bounds();
   const double radius = bounds.empty() ? 1.0 : 0.5 * bounds.diagonal();
   std::vector<double> powers;
-  for (const PunctualLight& light : lights_) powers.push_back(power(light, radius));
+  for (const PunctualLight& light : scene.lights) {
+    if (!is_of(kinds, light)) continue;
+    lights_.push_back(&light);
+    powers.push_back(power(light, radius));
+  }
   share_alike(std::span(powers));
   by_power_ = AliasTable(powers);
-  has_placed_ = std::any_of(lights_.begin(), lights_.end(),
-                            [](const PunctualLight& l) { return l.kind != PunctualLight::Kind::directional; });
 }
 
 int PunctualLights::samples() const {
@@ -63,26 +70,26 @@ int PunctualLights::samples() const {
 }
 
 LightSample PunctualLights::sample(int i, const Vec3& from, float u) const {
-  if (lights_.size() <= few) return punctual_light_at(lights_[static_cast<std::size_t>(i)], from);
+  if (lights_.size() <= few) return punctual_light_at(*lights_[static_cast<std::size_t>(i)], from);
   if (lights_.size() <= FewChoice::most) return sample_by_irradiance(from, u);
   const std::uint32_t chosen = by_power_.sample(u);
-  LightSample sample = punctual_light_at(lights_[chosen], from);
+  LightSample sample = punctual_light_at(*lights_[chosen], from);
   sample.pdf *= by_power_.probability(chosen);
   return sample;
 }
 
 PunctualLights::Chosen PunctualLights::choose(int i, float u) const {
-  if (lights_.size() <= few) return {&lights_[static_cast<std::size_t>(i)], 1};
+  if (lights_.size() <= few) return {lights_[static_cast<std::size_t>(i)], 1};
   const std::uint32_t chosen = by_power_.sample(u);
-  return {&lights_[chosen], by_power_.probability(chosen)};
+  return {lights_[chosen], by_power_.probability(chosen)};
 }
 
 LightSample PunctualLights::sample_by_irradiance(const Vec3& from, float u) const {
   const FewChoice choice(lights_.size(),
-                         [&](std::uint32_t i) { return max_component(punctual_light_at(lights_[i], from).radiance); });
+                         [&](std::uint32_t i) { return max_component(punctual_light_at(*lights_[i], from).radiance); });
   if (choice.empty()) return {};  // infinite on the very place of a light
   const std::uint32_t chosen = choice.sample(u);
-  LightSample sample = punctual_light_at(lights_[chosen], from);
+  LightSample sample = punctual_light_at(*lights_[chosen], from);
   sample.pdf *= choice.chance(chosen);
   return sample;
 }

@@ -7,12 +7,12 @@
 
 namespace isophote {
 
-/// The punctual lights of a scene. No ray can meet them, so they are no part of multiple importance sampling and are
-/// sampled by themselves.
+/// The punctual lights of a scene, or those of some kinds. No ray can meet them, so they are no part of multiple
+/// importance sampling and are sampled by themselves.
 class PunctualLights {
  public:
   /// `scene` must outlive this.
-  explicit PunctualLights(const Scene& scene);
+  explicit PunctualLights(const Scene& scene, PunctualKinds kinds = PunctualKinds::all);
 
   /// How many samples to take, whose light adds up: as many as there are lights where they are few, so that none is
   /// noise beside another; else one.
@@ -27,15 +27,12 @@ class PunctualLights {
     float chance = 1;
   };
   Chosen choose(int i, float u) const;
-  /// Have any a place, as point and spot lights do?
-  bool has_placed() const { return has_placed_; }
 
  private:
   LightSample sample_by_irradiance(const Vec3& from, float u) const;
 
-  const std::vector<PunctualLight>& lights_;
+  std::vector<const PunctualLight*> lights_;
   AliasTable by_power_;
-  bool has_placed_ = false;
 };
 
 /// What a light sends to `from`, alone.

@@ -6,7 +6,7 @@ namespace isophote {
 
 /// What a ray brings. Light met by its first segment is kept apart, for light sampling may have found it too.
 struct Arrival {
-  FirstPoint first;  ///< `emission` holds only what was met after a specular event
+  FirstPoint first;  ///< `emission` is of what was met after a specular event, and of media on the way
   Rgb lamp;          ///< radiance of a directly sampled emitter at the first segment's end
   Rgb sky;           ///< radiance of the environment's rest there
   Hit hit;           ///< of the first segment; distance infinity: none

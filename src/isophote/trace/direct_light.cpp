@@ -49,7 +49,7 @@ Rgb direct_light(const World& world, const SurfacePoint& point, const Vec3& wo, 
     return !is_black(scattered);
   };
   const auto add = [&](const Incident& light) { sum += scattered * light.radiance; };
-  sample_lights(world, point, u_choice, u_light, seed, among, PunctualKinds::all, counts, scatter_it, add);
+  sample_lights(world, point, u_choice, u_light, seed, among, counts, scatter_it, add);
   if (!shared) return sum;
   const auto add_ray = [&](const BsdfSample& sample) {
     if (!usable(point, sample)) return;
@@ -63,8 +63,8 @@ Rgb direct_light(const World& world, const SurfacePoint& point, const Vec3& wo, 
   return sum;
 }
 
-Rgb direct_light(const World& world, const MediumPoint& point, const Vec3& direction, PunctualKinds kinds,
-                 Sampler& sampler, RayCounts& counts, Gradient<Rgb>* slope) {
+Rgb direct_light(const World& world, const MediumPoint& point, const Vec3& direction, Sampler& sampler,
+                 RayCounts& counts, Gradient<Rgb>* slope) {
   const float u_choice = sampler.next();
   const Vec2 u_light = sampler.next2();
   const std::uint32_t seed = sampler.next_bits();
@@ -77,13 +77,9 @@ Rgb direct_light(const World& world, const MediumPoint& point, const Vec3& direc
   const auto add = [&](const Incident& light) {
     const Rgb scattered = light.radiance * phase;
     sum += scattered;
-    if (!slope) return;
-    const float c = dot(direction, light.direction);
-    const Vec3 across = (light.direction - direction * c) * (3 * point.g / henyey_greenstein_root(point.g, c));
-    slope->x += scattered * across.x, slope->y += scattered * across.y, slope->z += scattered * across.z;
+    if (slope) isophote::add(*slope, henyey_greenstein_turn(point.g, direction, light.direction), scattered);
   };
-  sample_lights(world, point, u_choice, u_light, seed, Emitters::Among::sampled_directly, kinds, counts, scatter_it,
-                add);
+  sample_lights(world, point, u_choice, u_light, seed, Emitters::Among::sampled_directly, counts, scatter_it, add);
   return sum;
 }
 
@@ -102,8 +98,7 @@ GlossyRay glossy_ray(const World& world, const SurfacePoint& point, const Vec3& 
     return !is_black(scattered);
   };
   const auto add = [&](const Incident& light) { out.direct += scattered * light.radiance; };
-  sample_lights(world, point, u_choice, u_light, sampler.next_bits(), among, PunctualKinds::all, counts, scatter_it,
-                add);
+  sample_lights(world, point, u_choice, u_light, sampler.next_bits(), among, counts, scatter_it, add);
 
   const BsdfSample sample = sample_glossy(point.bsdf, wo, u_ray);
   if (!usable(point, sample)) return out;

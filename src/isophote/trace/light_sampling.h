@@ -1,6 +1,7 @@
 #pragma once
 
 #include "isophote/sampling/warp.h"
+#include "isophote/scene/punctual_lights.h"
 #include "isophote/trace/arrival.h"
 #include "isophote/trace/shadow.h"
 
@@ -19,6 +20,10 @@ inline bool scatters_from(const SurfacePoint& point, const Vec3& wi) {
 }
 inline bool scatters_from(const MediumPoint&, const Vec3&) { return true; }
 
+/// Point and spot lights are no matter of points in media: placed_lights.h.
+inline PunctualKinds punctual_kinds(const SurfacePoint&) { return PunctualKinds::all; }
+inline PunctualKinds punctual_kinds(const MediumPoint&) { return PunctualKinds::directional; }
+
 /// One light sample at a point: what it sends there, over its density.
 struct Incident {
   Vec3 direction;
@@ -31,8 +36,7 @@ struct Incident {
 /// of the incident light, nothing in its way, decides whether a shadow ray is worth it.
 template <class Point, class Scatters, class Add>
 void sample_lights(const World& world, const Point& point, float u_choice, Vec2 u, std::uint32_t seed,
-                   Emitters::Among among, PunctualKinds kinds, RayCounts& counts, const Scatters& scatters,
-                   const Add& add) {
+                   Emitters::Among among, RayCounts& counts, const Scatters& scatters, const Add& add) {
   const auto take = [&](const LightSample& light) {
     if (!(light.pdf > 0) || is_black(light.radiance) || !scatters_from(point, light.direction)) return;
     Incident incident{light.direction, light.radiance / light.pdf, light.delta ? 0.0f : light.pdf,
@@ -43,10 +47,8 @@ void sample_lights(const World& world, const Point& point, float u_choice, Vec2 
   };
   const Emitters& emitters = world.emitters;
   if (!emitters.empty(among)) take(emitters.sample(point.position, u_choice, u, among));
-  for (int i = 0; i < emitters.punctual_samples(); ++i) {
-    const LightSample light = emitters.sample_punctual(i, point.position, u_choice);
-    if (kinds == PunctualKinds::all || light.distance == infinity) take(light);
-  }
+  const PunctualLights& punctual = emitters.punctual(punctual_kinds(point));
+  for (int i = 0; i < punctual.samples(); ++i) take(punctual.sample(i, point.position, u_choice));
 }
 
 /// The density with which light sampling would have taken the direction of a ray that brought `arrival`.

@@ -57,7 +57,7 @@ void add_light(const World& world, const SurfacePoint& point, const Vec3& wo, co
     (light.sampled_directly ? event.direct : event.rest) += scattered * light.radiance;
     if (!light.sampled_directly) event.rest_irradiance += light.radiance * irradiance;
   };
-  sample_lights(world, point, u_choice, u, seed, Emitters::Among::all, PunctualKinds::all, counts, scatter_it, add);
+  sample_lights(world, point, u_choice, u, seed, Emitters::Among::all, counts, scatter_it, add);
 }
 
 /// Light that the event's ray, chosen with density `pdf`, met at the end of its first segment: shared with light
@@ -108,8 +108,7 @@ Event scatter_once(const World& world, const MediumPoint& point, const Vec3& dir
   const auto add = [&](const Incident& light) {
     (light.sampled_directly ? event.direct : event.rest) += light.radiance * scattered;
   };
-  sample_lights(world, point, u_choice, u_light, sampler.next_bits(), Emitters::Among::all, PunctualKinds::directional,
-                counts, scatter_it, add);
+  sample_lights(world, point, u_choice, u_light, sampler.next_bits(), Emitters::Among::all, counts, scatter_it, add);
 
   const Vec3 next = sample_henyey_greenstein(point.g, direction, u_ray);
   event.next = follow(world, {point.position, next}, point.inside, depth + 1, sampler, counts.path);

@@ -68,16 +68,14 @@ struct Scattered {
   Rgb direct, indirect, irradiance;
 };
 
-/// Which punctual lights are meant. In media, point and spot lights have an estimator of their own: what `first_point`
-/// says is emitted along a ray contains their light that media scatter there once (`placed_lights_along`).
-enum class PunctualKinds : std::uint8_t { all, directional };
-
 /// One-path estimate by next-event estimation, multiple importance sampling and Russian roulette, unbiased.
 /// `depth` is the number of scattering events before this one.
 Scattered scatter(const World& world, const SurfacePoint& point, const Vec3& wo, int depth, Sampler& sampler,
                   RayCounts& counts);
 
-/// The same in a medium, without what point and spot lights scatter here directly; there is no irradiance. `direction`
+/// The same in a medium; there is no irradiance. What point and spot lights send here directly is not in it: in media
+/// they have an estimator of their own, and what `first_point` says is emitted along a ray contains their light that
+/// media scatter there once (`placed_lights_along`). `direction`
 /// is that of the ray from the viewer.
 Scattered scatter(const World& world, const MediumPoint& point, const Vec3& direction, int depth, Sampler& sampler,
                   RayCounts& counts);
@@ -89,10 +87,11 @@ Rgb path_radiance(const World& world, const FirstPoint& first, int depth, Sample
 Rgb direct_light(const World& world, const SurfacePoint& point, const Vec3& wo, bool glossy_too, Sampler& sampler,
                  RayCounts& counts);
 
-/// Light of directly sampled emitters that a medium scatters once, by light sampling alone: radiance on the way back
-/// along a ray of `direction`. `slope`, if given, is increased by its gradient on the sphere of directions.
-Rgb direct_light(const World& world, const MediumPoint& point, const Vec3& direction, PunctualKinds kinds,
-                 Sampler& sampler, RayCounts& counts, Gradient<Rgb>* slope = nullptr);
+/// Light of directly sampled emitters, but of point and spot lights, that a medium scatters once, by light sampling
+/// alone: radiance on the way back along a ray of `direction`. `slope`, if given, is increased by its gradient on the
+/// sphere of directions.
+Rgb direct_light(const World& world, const MediumPoint& point, const Vec3& direction, Sampler& sampler,
+                 RayCounts& counts, Gradient<Rgb>* slope = nullptr);
 
 /// One ray of the glossy lobe. `direct`: the glossy lobe's light from directly sampled emitters (light sampling and
 /// this ray share by MIS). `next` is where the ray goes on, with `next.emission` free of what `direct` holds; indirect

@@ -37,36 +37,53 @@ RayPlace place_by_angle(const Ray& ray, const PunctualLight& light, float u) {
   return {distance, (last - first) * (height + along * along / height)};
 }
 
-Rgb light_at(const World& world, const PunctualLight& light, const Ray& ray, const RayPlace& place, const Rgb& inside,
-             Sampler& sampler, RayCounts& counts) {
-  const Media& media = *world.media;
-  const auto scatterer = media.scatterer(ray.origin + ray.direction * place.distance, sampler.next());
+/// What of light passes from a place to the ray's origin, and its logarithm's gradient where that is asked.
+Media::Passage passage_from(const World& world, const Ray& ray, float distance, bool with_gradient, Sampler& sampler) {
+  const Ray way{ray.origin, ray.direction, 0, distance};
+  Media::Passage passage;
+  if (with_gradient)
+    world.media->along(way, {&distance, 1}, {&passage, 1});
+  else
+    passage.transmittance = world.media->transmittance(way, sampler.next_bits());
+  return passage;
+}
+
+/// Light that comes of one light from a place, over the chance of both.
+Rgb light_at(const World& world, const PunctualLights::Chosen& chosen, const Ray& ray, const RayPlace& place,
+             const Rgb& inside, Sampler& sampler, RayCounts& counts, LightChange* change) {
+  const auto scatterer = world.media->scatterer(ray.origin + ray.direction * place.distance, sampler.next());
   if (!scatterer) return {};
   MediumPoint point = scatterer->point;
   point.inside = inside;
-  const LightSample sample = punctual_light_at(light, point.position);
+  const LightSample sample = punctual_light_at(*chosen.light, point.position);
   if (is_black(sample.radiance)) return {};
-  Rgb result = scatterer->scattering * sample.radiance *
-               (place.length * henyey_greenstein(point.g, dot(ray.direction, sample.direction)));
-  result *= transmittance(inside, place.distance) *
-            media.transmittance({ray.origin, ray.direction, ray.near, place.distance}, sampler.next_bits());
-  if (is_black(result)) return {};
-  return result * light_transmittance(world, ShadowStart(point, sample.direction), sample, sampler.next_bits(), counts);
+  const float phase = henyey_greenstein(point.g, dot(ray.direction, sample.direction));
+  Rgb light = scatterer->scattering * sample.radiance * (place.length * phase / chosen.chance);
+  const Media::Passage passage = passage_from(world, ray, place.distance, change != nullptr, sampler);
+  light *= transmittance(inside, place.distance) * passage.transmittance;
+  if (is_black(light)) return {};
+  light *= light_transmittance(world, ShadowStart(point, sample.direction), sample, sampler.next_bits(), counts);
+  if (change) {
+    add(change->turn, henyey_greenstein_turn(point.g, ray.direction, sample.direction), light);
+    add(change->passage, passage.log_gradient, light);
+  }
+  return light;
 }
 
 }  // namespace
 
-Rgb placed_lights_along(const World& world, const Ray& ray, const Rgb& inside, Sampler& sampler, RayCounts& counts) {
+Rgb placed_lights_along(const World& world, const Ray& ray, const Rgb& inside, Sampler& sampler, RayCounts& counts,
+                        LightChange* change) {
   Rgb sum;
-  if (!world.emitters.has_placed()) return sum;
+  const PunctualLights& lights = world.emitters.punctual(PunctualKinds::placed);
+  if (lights.samples() == 0) return sum;
   const Ray within = world.media->within(ray);
   if (!(within.near < within.far)) return sum;
-  for (int i = 0; i < world.emitters.punctual_samples(); ++i) {
-    const Emitters::Punctual chosen = world.emitters.choose_punctual(i, sampler.next());
+  for (int i = 0; i < lights.samples(); ++i) {
+    const PunctualLights::Chosen chosen = lights.choose(i, sampler.next());
     const float u = sampler.next();
-    if (chosen.light->kind == PunctualLight::Kind::directional) continue;
     const RayPlace place = place_by_angle(within, *chosen.light, u);
-    if (place.length > 0) sum += light_at(world, *chosen.light, ray, place, inside, sampler, counts) / chosen.chance;
+    if (place.length > 0) sum += light_at(world, chosen, ray, place, inside, sampler, counts, change);
   }
   return sum;
 }
