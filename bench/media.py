@@ -84,7 +84,7 @@ def section():
         f"Four scenes, {SIZE}, whole pictures with direct light and single scattering. *gain* is the CPU to equal RMSE of path tracing over that of "
         "`cached`:",
         table(["scene", "picture", "records in media", "CPU s", "RMSE %", "block %", "bias %", "gain"], rows),
-        "![error over CPU](figures/media.svg)", "About equal CPU time (error 0.05, 16 samples):", "![cached and paths](figures/media-equal-time.png)",
+        "![error over CPU](figures/media.svg)", "About equal CPU time (error 0.05, 16 samples); the figure has 256 colours for all, which draws contours in smooth parts:", "![cached and paths](figures/media-equal-time.png)",
         f"What `cached` takes at error {asked} and {samples} samples; rays in millions:",
         table(["scene", "build, CPU s", "final, CPU s", "records of surfaces", "of their light in media", "of media's light", "MB of the latter two",
                "MB in all", "camera", "path", "gather", "shadow", "verification"], phase_rows),
