@@ -93,7 +93,7 @@ def records():
             f"what a place sees, by {GATHERS} gathers of {RAYS} rays that follow paths, is the same for all methods. The last row is what is left of noise in records themselves. "
             "*Relative change* places those of the first two rows alike, and all three are interpolated in logarithms; the others linearly. *One total error*: `volume-error` with a "
             "survey of 64 places, by which it allows the same integral everywhere, as `marco2018` renders; without one it allows each record its own value's share.\n\n"
-            "`fog-spot.toml` is not here: a point light within its medium, whose light grows as 1/r² near it, leaves sums over paths without a variance.\n\n" +
+            "`fog-spot.toml` is not here.\n\n" +
             "\n\n".join(parts) + f"\n\nPictures: that light by {SHOWN} records, and its error over the picture's mean, squares of 4 x 4 pixels, from -30 % (blue) to 30 % (red). Dots are"
             " where no record serves and a path is followed.")
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "integrate/back_wall_record.h"
 #include "integrate/stage.h"
 #include "isophote/core/error.h"
 #include "isophote/image/false_colour.h"
@@ -155,12 +156,7 @@ TEST(RecordPicture, DrawsADotAtEachRecordAndARimAroundIt) {
   const Stage stage(scenes::cornell_box());
   Job job = stage.job(method("uniform"), 128, 128, 1);
   RecordCache cache = empty_cache(job);
-  // One record in the middle of the back wall, a sixth of the picture wide.
-  Record record;
-  record.position = {0, 1, -1}, record.normal = {0, 0, 1};
-  record.footprint = Footprint::disk(0.3f, 1);
-  record.jet.value = Rgb(1);
-  cache.insert(record);
+  cache.insert(back_wall_record());
   const RgbImage picture = record_picture(job, cache, RecordColour::radius).picture;
   int dot_pixels = 0, coloured = 0, filled = 0, black = 0;
   for (const Rgb& p : picture.pixels) {

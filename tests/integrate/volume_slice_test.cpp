@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "integrate/back_wall_record.h"
 #include "integrate/stage.h"
 #include "isophote/cache/volume_cache.h"
 #include "isophote/integrate/record_picture.h"
@@ -103,11 +104,7 @@ TEST(VolumeSlice, IsHiddenBySurfacesAndEndsWithTheMedia) {
   const Stage stage(std::move(scene));
   const Job job = stage.job(method("jarosz2008a"), size, size, 1);
   RecordCache cache = empty_cache(job);
-  Record record;
-  record.position = {0, 1, -1}, record.normal = {0, 0, 1};
-  record.footprint = Footprint::disk(0.3f, 1);
-  record.jet.value = Rgb(1);
-  cache.insert(record);
+  cache.insert(back_wall_record());
   const RgbImage surfaces = record_picture(job, cache, RecordColour::error).picture;
   cache.set_volumes(std::make_shared<VolumeCaches>(cache.bounds()));
   cache.volumes()->media.insert(volume_record({0, 1, 0.8f}, 0.2f));
